@@ -1,0 +1,7 @@
+#!/usr/bin/env bash
+# Installs, builds and runs every test.
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+
+"$root/scripts/build.sh"
+ctest --test-dir "$root/build" --output-on-failure -j 2

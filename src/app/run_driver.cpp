@@ -1,0 +1,137 @@
+#include "app/run_driver.h"
+
+#include "app/environment.h"
+#include "app/progress.h"
+#include "app/run_summary.h"
+#include "core/stage_clock.h"
+#include "io/atomic_file.h"
+#include "io/frame_log.h"
+#include "io/picture_extent.h"
+#include "io/pov_frame.h"
+#include "io/pov_scene.h"
+#include "io/run_folder.h"
+#include "io/state_file.h"
+#include "scene/read_scene.h"
+#include "scene/write_scene.h"
+#include "solver/simulation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace sandflow {
+namespace {
+
+Scene readRunScene(const RunOptions& options)
+{
+    std::vector<std::string> overrides = options.overrides;
+    if (!options.mode.empty()) {
+        overrides.push_back("mode=\"" + options.mode + "\"");
+    }
+    if (options.seed) {
+        overrides.push_back(fmt::format("seed={}", *options.seed));
+    }
+    if (options.noSkip) {
+        overrides.push_back("skip.sleep=false");
+    }
+    return readScene(options.scenePath, overrides);
+}
+
+FrameRow makeRow(const FrameReport& r, double meanRadius)
+{
+    FrameRow row;
+    row.frame = r.frame;
+    row.time = r.time;
+    row.steps = r.steps;
+    row.dtMin = r.dtMin;
+    row.dtMean = r.dtMean;
+    row.emitted = r.ledger.emitted;
+    row.mobile = r.ledger.mobile;
+    row.asleep = r.ledger.asleep;
+    row.interface = r.ledger.interface;
+    row.buried = r.ledger.buried;
+    row.exited = r.ledger.exited;
+    row.maxOverlap = r.deepestOverlap / meanRadius;
+    row.kineticEnergy = r.kineticEnergy;
+    row.surfaceFlowTime = r.seconds.surfaceFlow;
+    row.transferTime = r.seconds.transfer;
+    row.rebuildTime = r.seconds.rebuild;
+    row.forcesTime = r.seconds.forces;
+    row.emitTime = r.seconds.emit;
+    return row;
+}
+
+void printPlan(const Scene& scene, const RunPlan& plan)
+{
+    fmt::print("{}: {} grains, {} mode, {} frames of {:.4g} s\n", scene.name, plan.grains,
+               scene.mode == Mode::dem ? "dem" : "surface-flow", plan.frames, plan.framePeriod);
+    fmt::print("  stiffness {:.4g}: {}\n", plan.law.stiffness, plan.stiffness.reason);
+    fmt::print("  step {:.3g} s (bound {:.3g} s): {}\n", plan.step.step, plan.step.bound,
+               plan.step.reason);
+}
+
+}  // namespace
+
+ExitCode runScene(const RunOptions& options)
+{
+    useThreads(options.threads);
+    const Scene scene = readRunScene(options);
+    const std::unique_ptr<Simulation> sand = makeSimulation(scene);
+    const RunPlan& plan = sand->plan();
+    const std::string modeName = scene.mode == Mode::dem ? "dem" : "surface-flow";
+    const RunFolder folder(
+        options.folder.empty() ? "runs/" + scene.name + "-" + modeName : options.folder,
+        options.force ? FolderUse::force : FolderUse::fresh);
+
+    const std::uint64_t frames = std::min(plan.frames, options.frames.value_or(plan.frames));
+    if (!options.quiet) {
+        printPlan(scene, plan);
+    }
+    writeFileAtomically(folder.scenePath(), writeScene(scene));
+    if (!options.noFrames) {
+        writePovScene(folder.path(), findPovrayFolder(), scene,
+                      {frames, estimateSandBox(scene)});
+    }
+
+    FrameLog log(folder.frameLogPath());
+    Progress progress(frames, options.quiet);
+    RunSummary summary(scene, plan);
+    Snapshot snapshot;
+    for (std::uint64_t f = 1; f <= frames; ++f) {
+        double wall = 0.0;
+        FrameRow row;
+        {
+            StageClock frameClock(wall);
+            const FrameReport report = sand->advanceFrame();
+            row = makeRow(report, scene.grains.radius);
+            StageClock outputClock(row.outputTime);
+            if (!options.noFrames || options.keepStates || f == frames) {
+                sand->takeSnapshot(snapshot);
+            }
+            if (!options.noFrames) {
+                row.exported = writePovFrame(folder.framePath(f), snapshot,
+                                             {options.allGrains, GrainColour::family});
+            }
+            if (options.keepStates) {
+                writeState(folder.statePath(f), snapshot);
+            }
+            summary.add(report);
+        }
+        row.wall = wall;
+        summary.addWall(row);
+        log.append(row);
+        progress.show(row);
+    }
+    writeState(folder.lastStatePath(), snapshot);
+    if (!options.noFrames) {
+        writePovScene(folder.path(), findPovrayFolder(), scene, {frames, measureSandBox(snapshot)});
+    }
+    summary.finish(*sand, snapshot);
+    folder.writeSummary(summary.json());
+    progress.finish();
+    fmt::print("{}", summary.text());
+    fmt::print("run folder: {}\n", folder.path());
+    return ExitCode::done;
+}
+
+}  // namespace sandflow

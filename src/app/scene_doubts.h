@@ -1,0 +1,15 @@
+#pragma once
+
+#include "scene/scene.h"
+#include "solver/simulation.h"
+
+#include <string>
+#include <vector>
+
+namespace sandflow {
+
+/// What is allowed but probably not meant, or will look odd: one sentence each, with a remedy where
+/// there is one. Throws InputError for a solid that cannot be built.
+std::vector<std::string> findDoubts(const Scene& scene, const RunPlan& plan);
+
+}  // namespace sandflow

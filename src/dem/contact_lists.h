@@ -1,0 +1,155 @@
+#pragma once
+
+#include "dem/chunk_contacts.h"
+#include "dem/contact_book.h"
+#include "grains/fixed_grains.h"
+#include "grains/mobile_grains.h"
+#include "solids/primitive.h"
+
+#include <span>
+#include <vector>
+
+namespace sandflow {
+
+/// Why a fixed grain is fixed; see transfer/.
+struct FrozenInfo;
+
+/// Who may touch whom until further notice. Every grain is promised to stay within a ball; pairs
+/// whose balls come close enough are listed. The ball of a moving grain is shifted ahead,
+///
+///     centre = x + v T / 2,   reach = skin / 2 + |v| T / 2,
+///
+/// so that a jet at 3 m/s does not use up the lists of everybody every few steps, and a grain that
+/// hits the heap and stops is still inside its ball. Lists hold while all grains are in their balls.
+template <class Real>
+class ContactLists {
+public:
+    struct Ball {
+        float x, y, z;   ///< m, centre relative to the origin of the chunk
+        float reach;     ///< m
+    };
+
+    ContactLists(double cellSize, double skin, double largestRadius)
+        : skin_(skin), largestRadius_(largestRadius), cells_(cellSize)
+    {
+    }
+
+    /// Sorts the mobile grains along cells and lists their possible contacts. `horizon` is T [s].
+    /// Springs of contacts that lived before come from `book`. `needBoundary` is called with the
+    /// sorted cells before anything is searched, so that rough solids can be covered where grains
+    /// are near.
+    template <class Info, class BoundaryInfo, class NeedBoundary>
+    void rebuild(double horizon, MobileGrains<Real>& mobile, FixedGrains<Real, Info>& frozen,
+                 FixedGrains<Real, BoundaryInfo>& boundary, std::span<const Primitive> walls,
+                 double time, const ContactBook<Real>& book, NeedBoundary needBoundary)
+    {
+        horizon_ = horizon;
+        sortMobile(horizon, mobile);
+        needBoundary(cells_);
+        frozen.sort();
+        boundary.sort();
+        search(mobile, {frozen.records(), frozen.cells()}, {boundary.records(), boundary.cells()},
+               walls, time, book);
+    }
+
+    /// A mobile grain left its ball: gives it another one from where it is now and appends the pairs
+    /// that this brings. Cheap, so that a few grains that bounce do not end everybody's lists.
+    template <class Info, class BoundaryInfo>
+    void followStray(std::uint32_t slot, const MobileGrains<Real>& mobile,
+                     const FixedGrains<Real, Info>& frozen,
+                     const FixedGrains<Real, BoundaryInfo>& boundary,
+                     std::span<const Primitive> walls, double time)
+    {
+        followStray(slot, mobile, {frozen.records(), frozen.cells()},
+                    {boundary.records(), boundary.cells()}, walls, time);
+    }
+
+    /// The ball that followStray would give: centre, and reach together with the grain's radius.
+    std::pair<Vec3, double> ballAhead(const GrainRecord<Real>& grain) const
+    {
+        const Vec3 ahead = Vec3(grain.vx, grain.vy, grain.vz) * (0.5 * horizon_);
+        return {Vec3(grain.x, grain.y, grain.z) + ahead,
+                0.5 * skin_ + ahead.norm() + static_cast<double>(grain.radius)};
+    }
+
+    bool isInBall(std::uint32_t slot, const GrainRecord<Real>& grain) const
+    {
+        const Ball& ball = balls_[slot];
+        const Vec3& origin = origins_[slot / kChunkSize];
+        const float dx = static_cast<float>(grain.x - origin.x()) - ball.x;
+        const float dy = static_cast<float>(grain.y - origin.y()) - ball.y;
+        const float dz = static_cast<float>(grain.z - origin.z()) - ball.z;
+        return dx * dx + dy * dy + dz * dz <= ball.reach * ball.reach;
+    }
+
+    /// Balls given by followStray since the rebuild.
+    std::size_t strayCount() const { return strays_.size(); }
+
+    std::vector<ChunkContacts<Real>>& chunks() { return chunks_; }
+    const std::vector<ChunkContacts<Real>>& chunks() const { return chunks_; }
+    std::size_t chunkCount() const { return chunks_.size(); }
+    const std::vector<Ball>& balls() const { return balls_; }
+    const Vec3& origin(std::size_t chunk) const { return origins_[chunk]; }
+    double skin() const { return skin_; }
+    const SortedCells& cells() const { return cells_; }
+
+    /// How many cells away grains of each cell may have partners (1 except near fast grains).
+    int searchRadius(std::size_t cell) const { return searchRadius_[cell]; }
+
+    std::size_t bytes() const;
+
+private:
+    struct FixedView {
+        const std::vector<GrainRecord<Real>>& record;
+        const SortedCells& cells;
+    };
+    struct Range {
+        std::uint32_t begin, end;
+    };
+    struct SearchScratch {
+        std::vector<Range> mobile, frozen, boundary;
+        std::vector<std::uint32_t> partners;
+    };
+
+    void sortMobile(double horizon, MobileGrains<Real>& mobile);
+    void spreadSearchRadius();
+    void search(const MobileGrains<Real>& mobile, FixedView frozen, FixedView boundary,
+                std::span<const Primitive> walls, double time, const ContactBook<Real>& book);
+    void searchChunk(std::uint32_t chunk, const MobileGrains<Real>& mobile, const FixedView& frozen,
+                     const FixedView& boundary, std::span<const Primitive> walls, double time,
+                     const ContactBook<Real>& book, SearchScratch& scratch);
+    void searchWalls(std::uint32_t chunk, const MobileGrains<Real>& mobile,
+                     std::span<const Primitive> walls, double time,
+                     const ContactBook<Real>& book);
+
+    void followStray(std::uint32_t slot, const MobileGrains<Real>& mobile, const FixedView& frozen,
+                     const FixedView& boundary, std::span<const Primitive> walls, double time);
+    void appendPair(std::uint32_t a, std::uint32_t b);
+    void appendForeign(std::uint32_t slot, std::uint32_t packedPartner);
+
+    double skin_, largestRadius_;
+    double horizon_ = 0.0;  ///< s, T of these lists
+    SortedCells cells_;
+    std::vector<Vec3> centre_, centreScratch_;
+    std::vector<double> reach_, reachScratch_;
+    struct SearchBall {
+        double x, y, z;  ///< m, centre of the ball
+        double reach;    ///< m, of the ball and the grain's own radius
+    };
+    std::vector<SearchBall> search_;
+    struct Stray {
+        std::uint32_t slot;
+        SearchBall ball;
+    };
+    std::vector<Stray> strays_;       ///< further balls; a grain may be in any of its own
+    double longestReach_ = 0.0;       ///< m, over all cells
+    std::vector<double> cellReach_;   ///< m, longest reach of the grains of each cell
+    std::vector<std::uint32_t> cellOfSlot_;
+    std::vector<std::uint8_t> searchRadius_;
+    std::vector<GrainMemory> memoryScratch_;
+    std::vector<Ball> balls_;
+    std::vector<Vec3> origins_;
+    std::vector<ChunkContacts<Real>> chunks_;
+};
+
+}  // namespace sandflow

@@ -1,0 +1,281 @@
+#pragma once
+
+#include "dem/chunk_pass.h"
+#include "dem/contact_pair.h"
+#include "dem/record_rows.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace sandflow {
+
+/// Forces of a chunk's grain contacts, written once for any kind of lanes. Lanes has
+///
+///   Number, Real, width           one lane, all lanes, how many
+///   subtract(a, b, apart, radii)  of records a[l], b[l]: positions in double, then rounded; sum of
+///                                 radii
+///   load(p)                       lane l = p[l]
+///   gatherRows(row, k, v)         v[c] lane l = row[l][k + c],  c < 4
+///   scatterRows(v, row, k)        row[l][k + c] = v[c] lane l
+///   storeRows(v, p)               p[storedRow(l) + c] = v[c] lane l
+///   bitsOf(mask), topBitsOf(p)    bit l = mask lane l; = highest bit of p[l]
+///   append(mask, apart, packed, p, out, at)
+///                                 lanes of the mask to out[at], out[at + 1], ..., with p + l as
+///                                 pair; what follows them is overwritten
+///   addRow(sum, row), addRowTurned(sum, row)
+///                                 sum[c] += row[c]; turned: the first three are subtracted
+///   largest(v)                    over lanes
+///
+/// The same bits for any width: what lanes compute is one pair's alone, and sums are added up pair
+/// by pair in list order. Everything is a template over Lanes, which is another type for every
+/// instruction set: code compiled for a newer processor cannot be linked into the path of an older.
+template <class Lanes, NormalLaw law, bool rolls>
+class ContactPass {
+    using Number = typename Lanes::Number;
+    using Real = typename Lanes::Real;
+    using Record = GrainRecord<Number>;
+    using History = PairHistory<Number>;
+    static constexpr std::uint32_t kWidth = Lanes::width;
+    static constexpr std::uint32_t kAllLanes = (1u << kWidth) - 1u;
+
+    /// Partners in other chunks lie anywhere: they are asked for so many pairs ahead.
+    static constexpr std::uint32_t kAhead = 32;
+    /// Partners in the chunk lie a little ahead of the grain, so all records are asked for in
+    /// order: so many at first, then as many per block as a block of pairs gets through.
+    static constexpr std::uint32_t kAheadFirst = 384, kAheadMore = 128;
+    static_assert(kWidth <= kMaxLanes);
+
+    // sx, sy, sz, qx and, overlapping so as to stay inside, sz, qx, qy, qz.
+    static constexpr std::size_t kTailRow = offsetof(History, sz) / sizeof(Number);
+    static_assert(kTailRow == 2 && sizeof(History) == 6 * sizeof(Number));
+
+public:
+    static void run(ContactWork<Number>& work)
+    {
+        ContactPass pass(work);
+        work.wakeCount = 0;
+        pass.template sumPairs<false>();
+        pass.template sumPairs<true>();
+        work.deepest = Lanes::largest(pass.deepest_);
+    }
+
+private:
+    explicit ContactPass(ContactWork<Number>& work)
+        : work_(work), numbers_(*work.law), dt_(work.dt), deepest_(Number(0))
+    {
+    }
+
+    template <bool foreign>
+    [[gnu::flatten]] void sumPairs()
+    {
+        const std::uint32_t count = foreign ? work_.foreignCount : work_.ownCount;
+        std::uint32_t waiting = 0;
+        for (std::uint32_t begin = 0; begin < count; begin += kPairBlock) {
+            const std::uint32_t end = count - begin < kPairBlock ? count : begin + kPairBlock;
+            if constexpr (!foreign) {
+                prefetchOwn(begin == 0 ? kAheadFirst : kAheadMore);
+            }
+            waiting = findTouching<foreign>(begin, end, waiting);
+            std::uint32_t done = 0;
+            for (; done + kWidth <= waiting; done += kWidth) {
+                evaluate<foreign>(done, kWidth);
+            }
+            for (std::uint32_t k = done; k < waiting; ++k) {
+                copyTouching(k, k - done);
+            }
+            waiting -= done;
+        }
+        if (waiting > 0) {
+            // Idle lanes repeat the last pair and are not added.
+            for (std::uint32_t k = waiting; k < kWidth; ++k) {
+                copyTouching(waiting - 1, k);
+            }
+            evaluate<foreign>(0, waiting);
+        }
+    }
+
+    void prefetchOwn(std::uint32_t more)
+    {
+        for (; more > 0 && prefetched_ < kChunkSize; --more, ++prefetched_) {
+            __builtin_prefetch(work_.grains + prefetched_);
+        }
+    }
+
+    void copyTouching(std::uint32_t from, std::uint32_t to)
+    {
+        TouchingPairs<Number>& t = *work_.touching;
+        t.x[to] = t.x[from], t.y[to] = t.y[from], t.z[to] = t.z[from];
+        t.packed[to] = t.packed[from], t.pair[to] = t.pair[from];
+    }
+
+    /// The grain of a listed pair; slot[k] is read for foreign pairs only.
+    template <bool foreign>
+    const Record* grainOf(std::uint32_t packed, const std::uint16_t* slot, std::uint32_t k) const
+    {
+        return work_.grains + (foreign ? slot[k] : own_pair::lowerOf(packed));
+    }
+
+    template <bool foreign>
+    const Record* partnerOf(std::uint32_t packed) const
+    {
+        return foreign ? work_.source[partner::sourceOf(packed)] + partner::indexOf(packed)
+                       : work_.grains + own_pair::higherOf(packed);
+    }
+
+    /// Appends the pairs of [begin, end) that overlap to the `waiting` ones, without a branch on
+    /// whether they do. Springs of a contact start from zero; `live` is written only when it
+    /// changes.
+    template <bool foreign>
+    std::uint32_t findTouching(std::uint32_t begin, std::uint32_t end, std::uint32_t waiting)
+    {
+        std::uint32_t* const list = foreign ? work_.foreign : work_.own;
+        TouchingPairs<Number>& out = *work_.touching;
+        for (std::uint32_t p = begin; p < end; p += kWidth) {
+            const std::uint32_t* packed = list + p;
+            const std::uint16_t* slot = foreign ? work_.foreignSlot + p : nullptr;
+            std::uint32_t packedTail[kWidth];
+            std::uint16_t slotTail[kWidth];
+            if (kWidth > 1 && end - p < kWidth) [[unlikely]] {
+                for (std::uint32_t l = 0; l < kWidth; ++l) {
+                    const std::uint32_t k = p + l < end ? l : end - 1 - p;
+                    packedTail[l] = packed[k];
+                    slotTail[l] = foreign ? slot[k] : std::uint16_t(0);
+                }
+                packed = packedTail;
+                slot = slotTail;
+            }
+            prefetchSprings<foreign>(p);
+            const Record* grain[kWidth];
+            const Record* partner[kWidth];
+            for (std::uint32_t l = 0; l < kWidth; ++l) {
+                grain[l] = grainOf<foreign>(packed[l], slot, l);
+                partner[l] = partnerOf<foreign>(packed[l]);
+            }
+            if (foreign && p + kAhead + kWidth <= end) {
+                for (std::uint32_t l = 0; l < kWidth; ++l) {
+                    __builtin_prefetch(partnerOf<foreign>(list[p + kAhead + l]));
+                }
+            }
+            Vec<Real> apart;
+            Real radii;
+            Lanes::subtract(grain, partner, apart, radii);
+            const Real squared = dot(apart, apart);
+            // A position that is no number counts as touching, so that it spreads and is noticed.
+            const auto touches = (!(squared >= radii * radii)) & (squared != Real(0));
+            const std::uint32_t inside = end - p < kWidth ? (1u << (end - p)) - 1u : kAllLanes;
+            const std::uint32_t touching = Lanes::bitsOf(touches) & inside;
+
+            Lanes::append(touches, apart, packed, p, out, waiting);
+            waiting += static_cast<std::uint32_t>(__builtin_popcount(touching));
+            const std::uint32_t changed = (touching ^ Lanes::topBitsOf(packed)) & inside;
+            if (changed != 0) [[unlikely]] {
+                changeLive<foreign>(p, changed);
+            }
+        }
+        return waiting;
+    }
+
+    /// Springs are gone through in order, but with gaps, which hardware prefetch dislikes.
+    template <bool foreign>
+    void prefetchSprings(std::uint32_t p)
+    {
+        constexpr std::uintptr_t kLine = 64, kBytesAhead = 4096;
+        const auto from = reinterpret_cast<std::uintptr_t>(
+                              (foreign ? work_.foreignHistory : work_.ownHistory) + p)
+                          + kBytesAhead;
+        for (std::uintptr_t b = 0; b < kWidth * sizeof(History); b += kLine) {
+            __builtin_prefetch(reinterpret_cast<const void*>(from + b), 1);
+        }
+    }
+
+    template <bool foreign>
+    [[gnu::noinline]] void changeLive(std::uint32_t first, std::uint32_t changed)
+    {
+        for (; changed != 0; changed &= changed - 1) {
+            const std::uint32_t p = first + static_cast<std::uint32_t>(__builtin_ctz(changed));
+            (foreign ? work_.foreign : work_.own)[p] ^= partner::kLive;
+            (foreign ? work_.foreignHistory : work_.ownHistory)[p] = {};
+        }
+    }
+
+    /// Evaluates kWidth touching pairs and adds the first `count`.
+    template <bool foreign>
+    void evaluate(std::uint32_t first, std::uint32_t count)
+    {
+        const TouchingPairs<Number>& touching = *work_.touching;
+        History* const history = foreign ? work_.foreignHistory : work_.ownHistory;
+        const Record* grain[kWidth];
+        const Record* partner[kWidth];
+        Number* springRow[kWidth];
+        for (std::uint32_t l = 0; l < kWidth; ++l) {
+            const std::uint32_t packed = touching.packed[first + l];
+            const std::uint32_t pair = touching.pair[first + l];
+            grain[l] = grainOf<foreign>(packed, work_.foreignSlot, pair);
+            partner[l] = partnerOf<foreign>(packed);
+            springRow[l] = reinterpret_cast<Number*>(history + pair);
+        }
+        const Vec<Real> apart = {Lanes::load(touching.x + first), Lanes::load(touching.y + first),
+                                 Lanes::load(touching.z + first)};
+        const ContactSide<Real> a = RecordRows<Lanes>::gather(grain);
+        const ContactSide<Real> b = RecordRows<Lanes>::gather(partner);
+        ContactSprings<Real> springs;
+        Real v[4];
+        Lanes::gatherRows(springRow, 0, v);
+        springs.tangential = {v[0], v[1], v[2]};
+        if constexpr (rolls) {
+            springs.rolling.x = v[3];
+            Lanes::gatherRows(springRow, kTailRow, v);
+            springs.rolling.y = v[2], springs.rolling.z = v[3];
+        }
+
+        const ContactGeometry<Real> at = measureContact(apart, a.radius, b.radius);
+        const ContactForce<Real> f = evaluateContact<law, rolls>(numbers_, at, a, b, dt_, springs);
+        using std::max;
+        deepest_ = max(deepest_, at.overlap);
+
+        const Vec<Real>& s = springs.tangential;
+        const Vec<Real>& q = springs.rolling;
+        Lanes::scatterRows({s.x, s.y, s.z, q.x}, springRow, 0);
+        if constexpr (rolls) {
+            Lanes::scatterRows({s.z, q.x, q.y, q.z}, springRow, kTailRow);
+        }
+
+        alignas(64) Number force[4 * kWidth], torque[4 * kWidth], partnerTorque[4 * kWidth];
+        const Real pushes = select(f.normal > Real(0), Real(1), Real(0));
+        Lanes::storeRows({f.force.x, f.force.y, f.force.z, f.normal}, force);
+        Lanes::storeRows({f.torque.x, f.torque.y, f.torque.z, pushes}, torque);
+        if constexpr (!foreign) {
+            Lanes::storeRows({f.partnerTorque.x, f.partnerTorque.y, f.partnerTorque.z, pushes},
+                             partnerTorque);
+        }
+        for (std::uint32_t l = 0; l < count; ++l) {
+            const std::uint32_t row = Lanes::storedRow(l);
+            ContactSum<Number>& sum = work_.sums[grain[l] - work_.grains];
+            Lanes::addRow(&sum.fx, force + row);
+            Lanes::addRow(&sum.tx, torque + row);
+            if constexpr (foreign) {
+                noteWake(touching.packed[first + l], *partner[l], force[row + 3]);
+            } else {
+                ContactSum<Number>& other = work_.sums[partner[l] - work_.grains];
+                Lanes::addRowTurned(&other.fx, force + row);
+                Lanes::addRow(&other.tx, partnerTorque + row);
+            }
+        }
+    }
+
+    void noteWake(std::uint32_t packed, const Record& pushed, Number push)
+    {
+        if (partner::sourceOf(packed) == static_cast<std::uint32_t>(PartnerSource::frozen) &&
+            static_cast<float>(push) > pushed.wakeForce) {
+            work_.wake[work_.wakeCount++] = partner::indexOf(packed);
+        }
+    }
+
+    ContactWork<Number>& work_;
+    const LawNumbers<Real> numbers_;
+    const Real dt_;
+    Real deepest_;
+    std::uint32_t prefetched_ = 0;  ///< records of the chunk
+};
+
+}  // namespace sandflow

@@ -1,0 +1,239 @@
+#include "dem/force_kernel.h"
+
+#include "core/errors.h"
+#include "dem/find_passes.h"
+#include "dem/scalar_lanes.h"
+#include "dem/simd_passes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sandflow {
+namespace {
+
+/// What a thread needs while it works on a chunk.
+template <class Real>
+struct Workspace {
+    std::vector<ContactSum<Real>> sums;
+    std::vector<std::uint32_t> wake;
+    TouchingPairs<Real> touching{};
+};
+
+template <class Real>
+using WallPass = float (*)(const LawNumbers<Real>& numbers, const StepInput<Real>& input,
+                           const GrainRecord<Real>* grains, ChunkContacts<Real>& contacts,
+                           ContactSum<Real>* sums);
+
+/// Adds the forces of analytic walls. Returns the deepest overlap [m]. Few grains touch one, so
+/// this is the same code for every target.
+template <class Real, NormalLaw law, bool rolls>
+float sumWallContacts(const LawNumbers<Real>& numbers, const StepInput<Real>& input,
+                      const GrainRecord<Real>* grains, ChunkContacts<Real>& contacts,
+                      ContactSum<Real>* sums)
+{
+    float deepest = 0;
+    for (std::size_t w = 0; w < contacts.walls.size(); ++w) {
+        auto& wall = contacts.walls[w];
+        const std::uint32_t slot = wall.grain & ~partner::kLive;
+        const GrainRecord<Real>& g = grains[slot];
+        const SurfacePoint surface =
+            nearestSurface(input.walls[wall.primitive], Vec3(g.x, g.y, g.z));
+        const Real distance = static_cast<Real>(surface.distance);
+        if (distance >= g.radius) {
+            wall.grain = slot;
+            continue;
+        }
+        ContactGeometry<Real> at;
+        at.normal = {static_cast<Real>(surface.normal.x()), static_cast<Real>(surface.normal.y()),
+                     static_cast<Real>(surface.normal.z())};
+        at.overlap = g.radius - distance;
+        at.arm = distance;
+        at.partnerArm = 0;
+        // A flat wall is a partner of infinite radius and mass: R* = R, m* = m.
+        at.effectiveRadius = g.radius;
+        at.rollingRadius2 = g.radius * g.radius;
+        const ContactSide<Real> side = {
+            g.radius, g.inverseMass, {g.vx, g.vy, g.vz}, {g.wx, g.wy, g.wz}};
+
+        PairHistory<Real>& h = contacts.wallHistory[w];
+        ContactSprings<Real> springs;
+        if (wall.grain & partner::kLive) {
+            springs = {{h.sx, h.sy, h.sz}, {h.qx, h.qy, h.qz}};
+        }
+        const ContactForce<Real> f = evaluateContact<law, rolls>(
+            numbers, at, side, ContactSide<Real>{}, static_cast<Real>(input.dt), springs);
+        h = {springs.tangential.x, springs.tangential.y, springs.tangential.z,
+             springs.rolling.x,    springs.rolling.y,    springs.rolling.z};
+        wall.grain = slot | partner::kLive;
+        deepest = std::max(deepest, static_cast<float>(at.overlap));
+
+        ContactSum<Real>& sum = sums[slot];
+        sum.fx += f.force.x, sum.fy += f.force.y, sum.fz += f.force.z;
+        sum.tx += f.torque.x, sum.ty += f.torque.y, sum.tz += f.torque.z;
+        sum.load += f.normal;
+        sum.partners += f.normal > 0;
+    }
+    return deepest;
+}
+
+template <class Real>
+WallPass<Real> findWallPass(NormalLaw law, bool rolls)
+{
+    switch (law) {
+    case NormalLaw::linear:
+        return rolls ? &sumWallContacts<Real, NormalLaw::linear, true>
+                     : &sumWallContacts<Real, NormalLaw::linear, false>;
+    case NormalLaw::hertz:
+        return rolls ? &sumWallContacts<Real, NormalLaw::hertz, true>
+                     : &sumWallContacts<Real, NormalLaw::hertz, false>;
+    case NormalLaw::bellYuMucha: break;
+    }
+    return rolls ? &sumWallContacts<Real, NormalLaw::bellYuMucha, true>
+                 : &sumWallContacts<Real, NormalLaw::bellYuMucha, false>;
+}
+
+/// What one observed step says of the grains, from their sums.
+template <class Real>
+void observeLoads(const GrainRecord<Real>* grains, const ContactSum<Real>* sums,
+                  std::uint32_t count, const Vec3& gravity, GrainLoad* load)
+{
+    const Vec<Real> g = {static_cast<Real>(gravity.x()), static_cast<Real>(gravity.y()),
+                         static_cast<Real>(gravity.z())};
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const ContactSum<Real>& sum = sums[i];
+        const Vec<Real> net =
+            Vec<Real>{sum.fx, sum.fy, sum.fz} + (Real(1) / grains[i].inverseMass) * g;
+        load[i] = {static_cast<float>(sum.partners), static_cast<float>(length(net)),
+                   static_cast<float>(sum.load)};
+    }
+}
+
+template <class Real>
+class ChunkKernel final : public ForceKernel<Real> {
+public:
+    ChunkKernel(const ContactCoefficients& law, bool observe, const ChunkPasses<Real>& passes)
+        : law_(law),
+          numbers_(law),
+          observe_(observe),
+          passes_(passes),
+          wallPass_(findWallPass<Real>(law.law, law.rollingFriction > 0.0))
+    {
+    }
+
+    void stepChunk(std::uint32_t chunk, const StepInput<Real>& input, MobileGrains<Real>& mobile,
+                   ContactLists<Real>& lists, ChunkReport& report) const override
+    {
+        static thread_local Workspace<Real> space;
+        const std::uint32_t first = chunk * kChunkSize;
+        const GrainRecord<Real>* grains = mobile.record.data() + first;
+        ChunkContacts<Real>& contacts = lists.chunks()[chunk];
+        space.sums.assign(contacts.grainCount, {});
+
+        report.deepestOverlap = sumGrainContacts(input, grains, contacts, space, report);
+        report.deepestOverlap = std::max(
+            report.deepestOverlap,
+            wallPass_(numbers_, input, grains, contacts, space.sums.data()));
+        if (observe_) {
+            observeLoads(grains, space.sums.data(), contacts.grainCount, input.gravity,
+                         mobile.load.data() + first);
+        }
+        moveGrains(chunk, input, lists, space, mobile, report);
+    }
+
+private:
+    float sumGrainContacts(const StepInput<Real>& input, const GrainRecord<Real>* grains,
+                           ChunkContacts<Real>& contacts, Workspace<Real>& space,
+                           ChunkReport& report) const
+    {
+        space.wake.resize(contacts.foreign.size());
+        ContactWork<Real> work;
+        work.law = &law_;
+        work.dt = static_cast<Real>(input.dt);
+        work.grains = grains;
+        std::copy(input.source.begin(), input.source.end(), work.source);
+        work.ownCount = static_cast<std::uint32_t>(contacts.own.size());
+        work.foreignCount = static_cast<std::uint32_t>(contacts.foreign.size());
+        work.own = contacts.own.data();
+        work.foreign = contacts.foreign.data();
+        work.foreignSlot = contacts.foreignSlot.data();
+        work.ownHistory = contacts.ownHistory.data();
+        work.foreignHistory = contacts.foreignHistory.data();
+        work.touching = &space.touching;
+        work.sums = space.sums.data();
+        work.wake = space.wake.data();
+        passes_.sumContacts(work);
+        report.wake.assign(work.wake, work.wake + work.wakeCount);
+        return static_cast<float>(work.deepest);
+    }
+
+    void moveGrains(std::uint32_t chunk, const StepInput<Real>& input,
+                    const ContactLists<Real>& lists, const Workspace<Real>& space,
+                    MobileGrains<Real>& mobile, ChunkReport& report) const
+    {
+        const std::uint32_t first = chunk * kChunkSize;
+        MotionWork<Real> work;
+        work.dt = input.dt;
+        for (int c = 0; c < 3; ++c) {
+            work.gravity[c] = input.gravity[c];
+            work.origin[c] = lists.origin(chunk)[c];
+        }
+        work.record = mobile.record.data() + first;
+        work.next = mobile.next.data() + first;
+        work.ball = &lists.balls()[first].x;
+        work.sums = space.sums.data();
+        work.count = static_cast<std::uint32_t>(space.sums.size());
+        work.brokenGrain = 0;
+        passes_.moveGrains(work);
+        report.fastestSquared = work.fastestSquared;
+        report.leftBall = work.leftBall;
+        report.broke = work.broke;
+        report.brokenGrain = first + work.brokenGrain;
+    }
+
+    ContactCoefficients law_;
+    LawNumbers<Real> numbers_;
+    bool observe_;
+    ChunkPasses<Real> passes_;
+    WallPass<Real> wallPass_;
+};
+
+ChunkPasses<float> findFloatPasses(KernelTarget target, NormalLaw law, bool rolls)
+{
+    const std::vector<KernelTarget> available = availableKernelTargets();
+    if (target == KernelTarget::best) {
+        target = available.back();
+    }
+    if (std::find(available.begin(), available.end(), target) == available.end()) {
+        throw InputError(fmt::format("this processor or build has no {} kernel (best: {})",
+                                     nameOf(target), kernelTargetName()));
+    }
+    switch (target) {
+    case KernelTarget::sse4: return sse4Passes()(law, rolls);
+    case KernelTarget::avx2: return avx2Passes()(law, rolls);
+    case KernelTarget::avx512: return avx512Passes()(law, rolls);
+    case KernelTarget::scalar:
+    case KernelTarget::best: break;
+    }
+    return findPasses<ScalarLanes<float>>(law, rolls);
+}
+
+}  // namespace
+
+template <>
+std::unique_ptr<ForceKernel<float>> makeForceKernel<float>(const ContactCoefficients& law,
+                                                           bool observe, KernelTarget target)
+{
+    return std::make_unique<ChunkKernel<float>>(
+        law, observe, findFloatPasses(target, law.law, law.rollingFriction > 0.0));
+}
+
+template <>
+std::unique_ptr<ForceKernel<double>> makeForceKernel<double>(const ContactCoefficients& law,
+                                                             bool observe, KernelTarget)
+{
+    return std::make_unique<ChunkKernel<double>>(
+        law, observe,
+        findPasses<ScalarLanes<double>>(law.law, law.rollingFriction > 0.0));
+}
+
+}  // namespace sandflow

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+namespace sandflow {
+
+/// Which instructions the force kernel uses. Results do not depend on it, to the last bit.
+enum class KernelTarget { scalar, sse4, avx2, avx512, best };
+
+/// Those that this build has and this processor can run, slowest first; scalar always.
+std::vector<KernelTarget> availableKernelTargets();
+
+/// "scalar", "sse4", "avx2" or "avx512"; best goes by the name of what it stands for.
+const char* nameOf(KernelTarget target);
+
+/// What KernelTarget::best stands for, for reports.
+inline const char* kernelTargetName()
+{
+    return nameOf(KernelTarget::best);
+}
+
+}  // namespace sandflow

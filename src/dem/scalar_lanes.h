@@ -1,0 +1,77 @@
+#pragma once
+
+#include "core/small_vec.h"
+#include "dem/chunk_pass.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace sandflow {
+
+/// Lanes of ContactPass for any machine and for double: one.
+template <class Scalar>
+struct ScalarLanes {
+    using Number = Scalar;
+    using Real = Scalar;
+    static constexpr std::uint32_t width = 1;
+
+    struct Row {
+        Number v[4];
+    };
+
+    static void subtract(const GrainRecord<Number>* const* a, const GrainRecord<Number>* const* b,
+                         Vec<Number>& apart, Number& radii)
+    {
+        apart = {static_cast<Number>(a[0]->x - b[0]->x), static_cast<Number>(a[0]->y - b[0]->y),
+                 static_cast<Number>(a[0]->z - b[0]->z)};
+        radii = a[0]->radius + b[0]->radius;
+    }
+    static Vec<Number> advance(const GrainRecord<Number>* const* record,
+                               GrainRecord<Number>* const* next, double dt, const Vec<Number>& v,
+                               const double (&origin)[3])
+    {
+        next[0]->x = record[0]->x + dt * static_cast<double>(v.x);
+        next[0]->y = record[0]->y + dt * static_cast<double>(v.y);
+        next[0]->z = record[0]->z + dt * static_cast<double>(v.z);
+        return {static_cast<Number>(next[0]->x - origin[0]),
+                static_cast<Number>(next[0]->y - origin[1]),
+                static_cast<Number>(next[0]->z - origin[2])};
+    }
+    static Number load(const Number* p) { return *p; }
+    template <class Pointer>
+    static void gatherRows(const Pointer* row, std::size_t k, Number (&v)[4])
+    {
+        for (int c = 0; c < 4; ++c) {
+            v[c] = static_cast<Number>(row[0][k + c]);
+        }
+    }
+    static void scatterRows(const Row& row, Number* const* to, std::size_t k)
+    {
+        storeRows(row, to[0] + k);
+    }
+    static void storeRows(const Row& row, Number* p)
+    {
+        p[0] = row.v[0], p[1] = row.v[1], p[2] = row.v[2], p[3] = row.v[3];
+    }
+    static std::uint32_t storedRow(std::uint32_t) { return 0; }
+    static void addRow(Number* sum, const Number* row)
+    {
+        sum[0] += row[0], sum[1] += row[1], sum[2] += row[2], sum[3] += row[3];
+    }
+    static void addRowTurned(Number* sum, const Number* row)
+    {
+        sum[0] -= row[0], sum[1] -= row[1], sum[2] -= row[2], sum[3] += row[3];
+    }
+    static Number largest(Number v) { return v; }
+    static std::uint32_t bitsOf(bool mask) { return mask; }
+    static std::uint32_t topBitsOf(const std::uint32_t* p) { return *p >> 31; }
+    static void append(bool, const Vec<Number>& apart, const std::uint32_t* packed,
+                       std::uint32_t p, TouchingPairs<Number>& out, std::uint32_t at)
+    {
+        out.x[at] = apart.x, out.y[at] = apart.y, out.z[at] = apart.z;
+        out.packed[at] = *packed;
+        out.pair[at] = p;
+    }
+};
+
+}  // namespace sandflow

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "grains/grain_record.h"
+#include "grains/sorted_cells.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace sandflow {
+
+/// Grains that do not move but push: the particle interface, sleepers, rough solids. Kept sorted
+/// along cells; sorting again costs nothing while nothing was added or removed.
+template <class Real, class Info>
+class FixedGrains {
+public:
+    explicit FixedGrains(double cellSize) : cells_(cellSize) {}
+
+    void add(const GrainRecord<Real>& record, const Info& info)
+    {
+        record_.push_back(record);
+        info_.push_back(info);
+        sorted_ = false;
+    }
+
+    /// Keeps those for which keep(index) is true, in their order.
+    template <class Keep>
+    void removeUnless(Keep keep)
+    {
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < record_.size(); ++k) {
+            if (keep(k)) {
+                record_[kept] = record_[k];
+                info_[kept] = info_[k];
+                ++kept;
+            }
+        }
+        sorted_ = sorted_ && kept == record_.size();
+        record_.resize(kept);
+        info_.resize(kept);
+    }
+
+    /// Afterwards entry k of cells() is grain k.
+    void sort()
+    {
+        if (sorted_) {
+            return;
+        }
+        points_.resize(record_.size());
+        for (std::size_t k = 0; k < record_.size(); ++k) {
+            points_[k] = Vec3(record_[k].x, record_[k].y, record_[k].z);
+        }
+        cells_.build(points_);
+        recordScratch_.resize(record_.size());
+        infoScratch_.resize(record_.size());
+        for (std::size_t k = 0; k < record_.size(); ++k) {
+            recordScratch_[k] = record_[cells_.order()[k]];
+            infoScratch_[k] = info_[cells_.order()[k]];
+        }
+        record_.swap(recordScratch_);
+        info_.swap(infoScratch_);
+        sorted_ = true;
+    }
+
+    std::size_t size() const { return record_.size(); }
+    const std::vector<GrainRecord<Real>>& records() const { return record_; }
+    GrainRecord<Real>& record(std::size_t k) { return record_[k]; }  ///< not for moving it
+    const GrainRecord<Real>& record(std::size_t k) const { return record_[k]; }
+    Info& info(std::size_t k) { return info_[k]; }
+    const Info& info(std::size_t k) const { return info_[k]; }
+    const SortedCells& cells() const { return cells_; }
+
+private:
+    std::vector<GrainRecord<Real>> record_, recordScratch_;
+    std::vector<Info> info_, infoScratch_;
+    std::vector<Vec3> points_;
+    SortedCells cells_;
+    bool sorted_ = true;
+};
+
+}  // namespace sandflow

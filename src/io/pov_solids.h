@@ -1,0 +1,22 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <string>
+
+namespace sandflow {
+
+/// A number POV-Ray reads: shortest form, a point whatever the locale. InternalError for NaN or
+/// infinity.
+std::string povNumber(double number);
+
+/// "<x,z,y>": POV-Ray's axes for a vector in the simulator's.
+std::string povVector(const Vec3& vector);
+
+/// "#macro RunSolids()": the solids of a scene, lengths in mean grain radii, each within a test of
+/// RunTime (s) if it does not exist for ever. `camera` (m): a plane it would see from behind is
+/// left out, because it would hide everything. Throws InputError for a look that is not floor,
+/// glass, ceramic, wood or none, and for a mesh.
+std::string formatPovSolids(const Scene& scene, const Vec3& camera);
+
+}  // namespace sandflow

@@ -1,0 +1,473 @@
+#include "solver/sand_solver.h"
+
+#include "core/hash.h"
+#include "core/stage_clock.h"
+#include "solids/free_intervals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sandflow {
+namespace {
+
+/// Grains faster than this are in the air or about to be, not part of the heap (H leaves them out).
+constexpr double kAccumulatedSpeed = 0.6;  // m/s
+constexpr float kAccumulatedContacts = 2;
+/// Gaps between solids lower than this many diameters hold no sand.
+constexpr double kSmallestGap = 1.0;
+
+std::vector<Primitive> allPrimitives(const Scene& scene)
+{
+    std::vector<Primitive> out;
+    for (std::size_t s = 0; s < scene.solids.size(); ++s) {
+        const auto parts = buildPrimitives(scene.solids[s], static_cast<int>(s));
+        out.insert(out.end(), parts.begin(), parts.end());
+    }
+    return out;
+}
+
+DemSetup demSetup(const Scene& scene, const RunPlan& plan)
+{
+    DemSetup setup;
+    setup.law = plan.law;
+    setup.meanRadius = scene.grains.radius;
+    setup.largestRadius = plan.load.maxRadius;
+    setup.density = scene.grains.density;
+    setup.gravity = scene.gravity;
+    setup.primitives = allPrimitives(scene);
+    setup.seed = scene.seed;
+    return setup;
+}
+
+BcreParams bcreParams(const Scene& scene)
+{
+    const SurfaceFlowSpec& spec = scene.surfaceFlow;
+    BcreParams params;
+    params.exchangeRate = spec.exchangeRate;
+    params.reposeAngle = spec.reposeAngle * kPi / 180.0;
+    params.slopeForm = spec.slopeForm;
+    params.minFlowDepth = spec.minFlowDepth * scene.diameter();
+    params.maxChange = spec.maxChange * scene.diameter();
+    params.transport = spec.transport;
+    params.transportSpeed = spec.transportSpeed;
+    return params;
+}
+
+TransferParams transferParams(const Scene& scene)
+{
+    TransferParams params;
+    params.interfaceThickness = scene.surfaceFlow.interfaceThickness * scene.diameter();
+    params.buryClearance = scene.surfaceFlow.buryClearance * scene.diameter();
+    params.hysteresis = 0.2 * scene.diameter();
+    params.sleep = scene.skip.sleep;
+    params.rest = makeRestRules(scene.surfaceFlow);
+    return params;
+}
+
+template <class Real>
+Vec3 positionOf(const GrainRecord<Real>& g)
+{
+    return {g.x, g.y, g.z};
+}
+
+}  // namespace
+
+template <class Real>
+SandSolver<Real>::SandSolver(const Scene& scene)
+    : scene_(scene),
+      plan_(planRun(scene)),
+      dem_(demSetup(scene, plan_)),
+      buried_(scene.surfaceFlow.cellSize * scene.diameter()),
+      columns_(
+          scene.surfaceFlow.cellSize * scene.diameter(),
+          [this](double x, double y, std::vector<ColumnGrid::FreeInterval>& out) {
+              std::vector<std::pair<double, double>> free;
+              freeIntervals(dem_.setup().primitives, time_, x, y,
+                            kSmallestGap * scene_.diameter(), free);
+              out.clear();
+              for (const auto& [floor, ceiling] : free) {
+                  out.push_back({floor, ceiling});
+              }
+          },
+          [this](const Vec2& a, const Vec2& b, double lo, double hi) {
+              return std::any_of(dem_.setup().primitives.begin(), dem_.setup().primitives.end(),
+                                 [&](const Primitive& p) {
+                                     return p.existsAt(time_) && blocksPath(p, a, b, lo, hi);
+                                 });
+          }),
+      bcre_(bcreParams(scene)),
+      rest_(makeRestRules(scene.surfaceFlow)),
+      transfer_(transferParams(scene))
+{
+    for (std::size_t e = 0; e < scene.emitters.size(); ++e) {
+        emitters_.push_back(makeEmitter(scene, e));
+    }
+}
+
+/// Steps 1 and 2 act once per window, step 3 as often as stability asks.
+template <class Real>
+FrameReport SandSolver<Real>::advanceFrame()
+{
+    FrameReport report;
+    report.frame = ++frame_;
+    report.dtMin = std::numeric_limits<double>::infinity();
+    dem_.resetExtremes();
+    const double start = static_cast<double>(frame_ - 1) * plan_.framePeriod;
+    const int windows = std::max(
+        1, static_cast<int>(std::ceil(plan_.framePeriod / scene_.surfaceFlow.interval - 1e-9)));
+    for (int w = 1; w <= windows; ++w) {
+        advanceWindow(start + plan_.framePeriod * w / windows, report);
+    }
+
+    report.time = time_;
+    report.dtMean = report.steps > 0 ? report.dtMean / static_cast<double>(report.steps) : 0.0;
+    report.dtMin = report.steps > 0 ? report.dtMin : 0.0;
+    report.deepestOverlap = dem_.deepestOverlap();
+    report.ledger = ledger();
+    report.heldBack = waiting_.size();
+    for (const GrainRecord<Real>& g : dem_.mobile().record) {
+        const double m = 1.0 / static_cast<double>(g.inverseMass), r = static_cast<double>(g.radius);
+        const double v2 = static_cast<double>(g.vx * g.vx + g.vy * g.vy + g.vz * g.vz);
+        const double w2 = static_cast<double>(g.wx * g.wx + g.wy * g.wy + g.wz * g.wz);
+        report.kineticEnergy += 0.5 * m * v2 + 0.2 * m * r * r * w2;
+    }
+    if (!report.ledger.balances()) {
+        throw InternalError(fmt::format(
+            "frame {}: the ledger does not balance: {} emitted, {} mobile, {} interface, {} buried, "
+            "{} exited",
+            frame_, report.ledger.emitted, report.ledger.mobile, report.ledger.interface,
+            report.ledger.buried, report.ledger.exited));
+    }
+    return report;
+}
+
+template <class Real>
+void SandSolver<Real>::advanceWindow(double end, FrameReport& report)
+{
+    const double interval = end - time_;
+    solidsCameOrWent();
+    moveGrains(end, report);  // step 3
+    time_ = end;
+    if (scene_.mode == Mode::surfaceFlow) {
+        separateLayers(interval, report);  // steps 1 and 2
+    }
+}
+
+/// Steps 1 and 2: the height field says how deep sand flows, and grains cross the interface to
+/// agree with it.
+template <class Real>
+void SandSolver<Real>::separateLayers(double interval, FrameReport& report)
+{
+    {   // 1. H -> h -> dh -> h -> R -> R' -> h', eq. (4)
+        StageClock clock(report.seconds.surfaceFlow);
+        measureSurface();
+        followSurface(columns_);
+        settleNewBeds();
+        evolveBcre(bcre_, interval, columns_);
+        enforceMinFlowDepth(bcre_, columns_);
+    }
+    {   // 2. Erosion and deposition through the particle interface
+        StageClock clock(report.seconds.transfer);
+        updateRestClocks(rest_, interval, dem_);
+        markWoken(rest_, dem_);
+        transfer_.plan(columns_, dem_);
+        dem_.recordContacts();
+        report.transfer += transfer_.apply(columns_, dem_, buried_);
+    }
+    rebuildLists(report);
+    {
+        StageClock clock(report.seconds.transfer);
+        judgeNewlyFrozen(rest_, dem_);
+    }
+}
+
+/// H over all accumulated sand: everything fixed, and mobile grains that lie rather than fly.
+template <class Real>
+void SandSolver<Real>::measureSurface()
+{
+    accumulated_.clear();
+    for (const GrainRecord<Real>& g : dem_.frozen().records()) {
+        accumulated_.push_back({positionOf(g), static_cast<double>(g.radius)});
+    }
+    for (std::size_t k = 0; k < dem_.mobile().size(); ++k) {
+        const GrainRecord<Real>& g = dem_.mobile().record[k];
+        const double speed2 = static_cast<double>(g.vx * g.vx + g.vy * g.vy + g.vz * g.vz);
+        if (dem_.mobile().load[k].contacts >= kAccumulatedContacts &&
+            speed2 < kAccumulatedSpeed * kAccumulatedSpeed) {
+            accumulated_.push_back({positionOf(g), static_cast<double>(g.radius)});
+        }
+    }
+    meter_.measure(accumulated_, scene_.diameter(), scene_.surfaceFlow.smoothing, columns_);
+}
+
+/// Sand that was put in at rest is static from the start: its bed need not grow from the floor.
+template <class Real>
+void SandSolver<Real>::settleNewBeds()
+{
+    if (!newBeds_) {
+        return;
+    }
+    newBeds_ = false;
+    for (std::size_t s = 0; s < columns_.spanCount(); ++s) {
+        columns_.h[s] = std::max(columns_.floor[s], columns_.H[s] - bcre_.minFlowDepth);
+        columns_.R[s] = columns_.H[s] - columns_.h[s];
+    }
+}
+
+/// Step 3: soft spheres until `end`. The lists are made anew when a grain leaves its ball or grains
+/// come in.
+template <class Real>
+void SandSolver<Real>::moveGrains(double end, FrameReport& report)
+{
+    bool retry = !waiting_.empty();
+    while (time_ < end - 1e-12) {
+        if (retry || nextEmission() <= time_ || !dem_.listsHold()) {
+            {
+                StageClock clock(report.seconds.emit);
+                dem_.recordContacts();
+                dropExited();
+                admitNewGrains();
+                retry = false;
+            }
+            rebuildLists(report);
+        }
+        if (dem_.mobile().size() == 0) {  // nothing moves: on to the next emission
+            time_ = std::min(end, nextEmission());
+            continue;
+        }
+        const double left = end - time_;
+        const double count = std::max(1.0, std::ceil(left / stableStepNow() - 1e-9));
+        const double dt = left / count;
+        {
+            StageClock clock(report.seconds.forces);
+            dem_.step(dt, count == 1.0 && scene_.mode == Mode::surfaceFlow);
+        }
+        time_ += dt;
+        ++report.steps;
+        report.dtMin = std::min(report.dtMin, dt);
+        report.dtMean += dt;
+        report.grainSteps += dem_.mobile().size();
+        report.skippedGrainSteps += dem_.frozen().size() + buried_.size();
+    }
+}
+
+template <class Real>
+void SandSolver<Real>::rebuildLists(FrameReport& report)
+{
+    StageClock clock(report.seconds.rebuild);
+    dem_.rebuild(time_, stableStepNow());
+    ++report.rebuilds;
+}
+
+/// The linear law's step never changes. Hertzian contacts stiffen with overlap: the step follows
+/// the deepest overlap there is, or that the fastest grain there is could make.
+template <class Real>
+double SandSolver<Real>::stableStepNow() const
+{
+    if (plan_.law.law == NormalLaw::linear || scene_.time.step) {
+        return plan_.step.step;
+    }
+    // Elastic impact on a fixed grain, an upper bound: delta = (5 m v^2 / (4 K sqrt(R*)))^0.4.
+    const double r = scene_.grains.radius;
+    const double impact =
+        std::pow(1.25 * dem_.massOf(plan_.load.maxRadius) * dem_.fastestSpeed() *
+                     dem_.fastestSpeed() / (plan_.law.stiffness * std::sqrt(0.5 * r)),
+                 0.4);
+    const double overlap = std::max({impact, 1.2 * dem_.latestOverlap(), 1e-3 * r});
+    return stableStep(plan_.law, plan_.load, overlap, scene_.time.stepSafety, std::nullopt).step;
+}
+
+template <class Real>
+double SandSolver<Real>::nextEmission() const
+{
+    double next = std::numeric_limits<double>::infinity();
+    for (const auto& emitter : emitters_) {
+        next = std::min(next, emitter->nextTime());
+    }
+    return next;
+}
+
+/// New grains, where there is room for them; the others wait. Emitters take turns, so that grains of
+/// two of them never enter in each other's place.
+template <class Real>
+void SandSolver<Real>::admitNewGrains()
+{
+    const auto admit = [&](std::size_t retries) {
+        admitted_.clear();
+        guard_.admit(dem_, time_, retries, waiting_, admitted_);
+        for (const NewGrain& g : admitted_) {
+            SAND_CHECK(nextId_ < kFirstBoundaryId, "out of grain ids");
+            if (g.settled && scene_.mode == Mode::surfaceFlow) {
+                dem_.frozen().add(dem_.makeRecord(g.position, g.radius, nextId_++), {});
+                newBeds_ = true;
+            } else {
+                dem_.addMobile(g.position, g.velocity, g.spin, g.radius, nextId_++);
+            }
+        }
+    };
+    admit(waiting_.size());
+    for (const auto& emitter : emitters_) {
+        const std::size_t retries = waiting_.size();
+        while (emitter->nextTime() <= time_) {
+            emitter->emit(time_, waiting_);
+        }
+        if (waiting_.size() > retries) {
+            admit(retries);
+        }
+    }
+}
+
+template <class Real>
+void SandSolver<Real>::dropExited()
+{
+    MobileGrains<Real>& mobile = dem_.mobile();
+    const Eigen::AlignedBox3d domain(scene_.domain.min, scene_.domain.max);
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < mobile.size(); ++k) {
+        if (domain.contains(positionOf(mobile.record[k]))) {
+            mobile.record[kept] = mobile.record[k];
+            mobile.memory[kept] = mobile.memory[k];
+            ++kept;
+        }
+    }
+    exited_ += mobile.size() - kept;
+    mobile.record.resize(kept);
+    mobile.memory.resize(kept);
+}
+
+/// When a solid appears or vanishes the columns over it are cut anew, and all sand is free again:
+/// what held it may be gone. What still rests is frozen again within a few windows.
+template <class Real>
+void SandSolver<Real>::solidsCameOrWent()
+{
+    const auto& solids = dem_.setup().primitives;
+    const bool changed = std::any_of(solids.begin(), solids.end(), [&](const Primitive& p) {
+        return p.existsAt(time_) != p.existsAt(solidsKnownAt_);
+    });
+    solidsKnownAt_ = time_;
+    if (!changed) {
+        return;
+    }
+    dem_.recordContacts();
+    if (scene_.mode == Mode::surfaceFlow) {
+        std::vector<std::pair<std::int32_t, std::int32_t>> cut;
+        columns_.rebuildSpans(cut);
+        transfer_.releaseAll(dem_, buried_);
+    }
+}
+
+template <class Real>
+Ledger SandSolver<Real>::ledger() const
+{
+    Ledger out;
+    out.emitted = nextId_;
+    for (std::size_t k = 0; k < dem_.frozen().size(); ++k) {
+        ++(dem_.frozen().info(k).state == GrainState::asleep ? out.asleep : out.interface);
+    }
+    out.mobile = dem_.mobile().size() + out.asleep;
+    out.buried = buried_.size();
+    out.exited = exited_;
+    return out;
+}
+
+template <class Real>
+void SandSolver<Real>::takeSnapshot(Snapshot& out) const
+{
+    const Ledger count = ledger();
+    const std::size_t n = count.mobile + count.interface + count.buried;
+    out.frame = frame_;
+    out.time = time_;
+    out.meanRadius = scene_.grains.radius;
+    out.emitted = count.emitted;
+    out.exited = count.exited;
+    // Ids are a range with few gaps: place each grain by its id, then close the gaps.
+    constexpr std::uint32_t kNobody = 0xFFFFFFFFu;
+    std::vector<std::uint32_t> slotOfId(nextId_, kNobody);
+    std::vector<Vec3> position(n);
+    std::vector<Vec3f> velocity(n, Vec3f::Zero()), spin(n, Vec3f::Zero());
+    std::vector<float> radius(n);
+    std::vector<GrainState> state(n);
+    std::uint32_t next = 0;
+    const auto put = [&](std::uint32_t id, const Vec3& p, double r, GrainState s) {
+        slotOfId[id] = next;
+        position[next] = p;
+        radius[next] = static_cast<float>(r);
+        state[next] = s;
+        return next++;
+    };
+    for (const GrainRecord<Real>& g : dem_.mobile().record) {
+        const std::uint32_t at =
+            put(g.id, positionOf(g), static_cast<double>(g.radius), GrainState::mobile);
+        velocity[at] = Vec3f(static_cast<float>(g.vx), static_cast<float>(g.vy),
+                             static_cast<float>(g.vz));
+        spin[at] = Vec3f(static_cast<float>(g.wx), static_cast<float>(g.wy),
+                         static_cast<float>(g.wz));
+    }
+    for (std::size_t k = 0; k < dem_.frozen().size(); ++k) {
+        const GrainRecord<Real>& g = dem_.frozen().record(k);
+        put(g.id, positionOf(g), static_cast<double>(g.radius), dem_.frozen().info(k).state);
+    }
+    buried_.forEach([&](const Vec3& p, double r, std::uint32_t id) {
+        put(id, p, r, GrainState::buried);
+    });
+
+    out.id.clear(), out.position.clear(), out.velocity.clear(), out.spin.clear();
+    out.radius.clear(), out.state.clear();
+    for (std::uint32_t id = 0; id < nextId_; ++id) {
+        const std::uint32_t at = slotOfId[id];
+        if (at == kNobody) {
+            continue;
+        }
+        out.id.push_back(id);
+        out.position.push_back(position[at]);
+        out.velocity.push_back(velocity[at]);
+        out.spin.push_back(spin[at]);
+        out.radius.push_back(radius[at]);
+        out.state.push_back(state[at]);
+    }
+}
+
+template <class Real>
+std::uint64_t SandSolver<Real>::countLeaks() const
+{
+    Snapshot all;
+    takeSnapshot(all);
+    std::uint64_t leaks = 0;
+    for (const Vec3& p : all.position) {
+        leaks += std::any_of(dem_.setup().primitives.begin(), dem_.setup().primitives.end(),
+                             [&](const Primitive& solid) {
+                                 return solid.existsAt(time_) &&
+                                        nearestSurface(solid, p).distance < 0.0;
+                             });
+    }
+    return leaks;
+}
+
+template <class Real>
+std::uint64_t SandSolver<Real>::stateHash() const
+{
+    Snapshot all;
+    takeSnapshot(all);
+    StateHash hash;
+    const auto add = [&](const auto& values) {
+        hash.add(values.data(), values.size() * sizeof(values[0]));
+    };
+    hash.addWord(frame_);
+    add(all.id), add(all.position), add(all.velocity), add(all.spin), add(all.radius);
+    add(all.state), add(columns_.h);
+    return hash.value();
+}
+
+template class SandSolver<float>;
+template class SandSolver<double>;
+
+std::unique_ptr<Simulation> makeSimulation(const Scene& scene)
+{
+    if (scene.precision == Precision::real64) {
+        return std::make_unique<SandSolver<double>>(scene);
+    }
+    return std::make_unique<SandSolver<float>>(scene);
+}
+
+}  // namespace sandflow

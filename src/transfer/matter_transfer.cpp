@@ -1,0 +1,242 @@
+#include "transfer/matter_transfer.h"
+
+#include "transfer/bed_height.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sandflow {
+namespace {
+
+template <class Real>
+Vec3 positionOf(const GrainRecord<Real>& g)
+{
+    return {g.x, g.y, g.z};
+}
+
+template <class Real>
+double speedOf(const GrainRecord<Real>& g)
+{
+    return std::sqrt(static_cast<double>(g.vx * g.vx + g.vy * g.vy + g.vz * g.vz));
+}
+
+}  // namespace
+
+TransferReport& TransferReport::operator+=(const TransferReport& o)
+{
+    trapped += o.trapped;
+    dislodged += o.dislodged;
+    buried += o.buried;
+    uncovered += o.uncovered;
+    fellAsleep += o.fellAsleep;
+    woken += o.woken;
+    trappedMomentum += o.trappedMomentum;
+    return *this;
+}
+
+template <class Real>
+void MatterTransfer<Real>::plan(const ColumnGrid& columns, const Dem<Real>& dem)
+{
+    const auto mobileCount = static_cast<std::int64_t>(dem.mobile().size());
+    const auto frozenCount = static_cast<std::int64_t>(dem.frozen().size());
+    mobileFate_.resize(dem.mobile().size());
+    frozenFate_.resize(dem.frozen().size());
+#pragma omp parallel for schedule(static)
+    for (std::int64_t k = 0; k < mobileCount; ++k) {
+        mobileFate_[k] = judgeMobile(columns, dem, k);
+    }
+#pragma omp parallel for schedule(static)
+    for (std::int64_t k = 0; k < frozenCount; ++k) {
+        frozenFate_[k] = judgeFrozen(columns, dem, k);
+    }
+}
+
+template <class Real>
+auto MatterTransfer<Real>::judgeMobile(const ColumnGrid& columns, const Dem<Real>& dem,
+                                       std::size_t k) const -> Fate
+{
+    if (!isAtRest(params_.rest, dem, k)) {
+        return Fate::stays;
+    }
+    const GrainRecord<Real>& g = dem.mobile().record[k];
+    const std::int32_t span = columns.spanAt(g.x, g.y, g.z);
+    if (span != ColumnGrid::kNone && g.z < bedHeightAt(columns, span, g.x, g.y)) {
+        return Fate::trapped;
+    }
+    return params_.sleep ? Fate::sleeps : Fate::stays;
+}
+
+template <class Real>
+auto MatterTransfer<Real>::judgeFrozen(const ColumnGrid& columns, const Dem<Real>& dem,
+                                       std::size_t k) const -> Fate
+{
+    const GrainRecord<Real>& g = dem.frozen().record(k);
+    const FrozenInfo& info = dem.frozen().info(k);
+    if (info.wakes) {
+        return Fate::dislodged;
+    }
+    const std::int32_t span = columns.spanAt(g.x, g.y, g.z);
+    const double bed =
+        span == ColumnGrid::kNone ? -1e30 : bedHeightAt(columns, span, g.x, g.y);
+    if (info.state == GrainState::asleep) {
+        return g.z < bed ? Fate::sinks : Fate::stays;
+    }
+    return g.z > bed + params_.hysteresis ? Fate::dislodged : Fate::stays;
+}
+
+template <class Real>
+TransferReport MatterTransfer<Real>::apply(const ColumnGrid& columns, Dem<Real>& dem,
+                                           BuriedGrains& buried)
+{
+    TransferReport report;
+    // Erosion: interface grains above h, and sleepers that were disturbed, are free again.
+    freed_.clear();
+    dem.frozen().removeUnless([&](std::size_t k) {
+        FrozenInfo& info = dem.frozen().info(k);
+        if (frozenFate_[k] == Fate::sinks) {
+            info.state = GrainState::interface;
+            info.judged = false;
+        }
+        if (frozenFate_[k] != Fate::dislodged) {
+            return true;
+        }
+        ++(info.state == GrainState::asleep ? report.woken : report.dislodged);
+        freed_.push_back(dem.frozen().record(k));
+        return false;
+    });
+    // Deposition: grains at rest below h join the interface; above it they may sleep.
+    MobileGrains<Real>& mobile = dem.mobile();
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < mobile.size(); ++k) {
+        if (mobileFate_[k] == Fate::stays) {
+            mobile.record[kept] = mobile.record[k];
+            mobile.memory[kept] = mobile.memory[k];
+            ++kept;
+            continue;
+        }
+        const GrainRecord<Real>& g = mobile.record[k];
+        const bool sleeps = mobileFate_[k] == Fate::sleeps;
+        ++(sleeps ? report.fellAsleep : report.trapped);
+        report.trappedMomentum += speedOf(g) / static_cast<double>(g.inverseMass);
+        FrozenInfo info;
+        info.state = sleeps ? GrainState::asleep : GrainState::interface;
+        dem.frozen().add(dem.makeRecord(positionOf(g), static_cast<double>(g.radius), g.id), info);
+    }
+    mobile.record.resize(kept);
+    mobile.memory.resize(kept);
+    for (const GrainRecord<Real>& g : freed_) {
+        dem.addMobile(positionOf(g), Vec3::Zero(), Vec3::Zero(), static_cast<double>(g.radius),
+                      g.id);
+    }
+    findBuryLines(columns, dem);
+    buryDeepOnes(columns, dem, buried, report);
+    uncoverShallowOnes(columns, dem, buried, report);
+    return report;
+}
+
+/// Nothing may lie buried above h - interface, nor near a moving grain of the 3 x 3 columns.
+template <class Real>
+void MatterTransfer<Real>::findBuryLines(const ColumnGrid& columns, const Dem<Real>& dem)
+{
+    lowestMobile_.assign(columns.spanCount(), 1e30);
+    for (const GrainRecord<Real>& g : dem.mobile().record) {
+        const std::int32_t span = columns.spanAt(g.x, g.y, g.z);
+        if (span != ColumnGrid::kNone) {
+            lowestMobile_[span] = std::min(lowestMobile_[span], g.z);
+        }
+    }
+    buryLine_.resize(columns.spanCount());
+    const auto spans = static_cast<std::int64_t>(columns.spanCount());
+#pragma omp parallel for schedule(static)
+    for (std::int64_t s = 0; s < spans; ++s) {
+        double lowest = lowestMobile_[s];
+        // Any span of the eight columns around counts: sand above a table's edge falls past it.
+        for (std::int32_t dj = -1; dj <= 1; ++dj) {
+            for (std::int32_t di = -1; di <= 1; ++di) {
+                const auto [first, count] =
+                    columns.spansOf(columns.columnI[s] + di, columns.columnJ[s] + dj);
+                for (std::int32_t t = first; t < first + count; ++t) {
+                    if (columns.ceiling[t] > columns.floor[s] &&
+                        columns.floor[t] < columns.ceiling[s]) {
+                        lowest = std::min(lowest, lowestMobile_[t]);
+                    }
+                }
+            }
+        }
+        buryLine_[s] = lowest - params_.buryClearance;
+    }
+}
+
+template <class Real>
+void MatterTransfer<Real>::buryDeepOnes(const ColumnGrid& columns, Dem<Real>& dem,
+                                        BuriedGrains& buried, TransferReport& report)
+{
+    dem.frozen().removeUnless([&](std::size_t k) {
+        if (dem.frozen().info(k).state != GrainState::interface) {
+            return true;
+        }
+        const GrainRecord<Real>& g = dem.frozen().record(k);
+        const std::int32_t span = columns.spanAt(g.x, g.y, g.z);
+        if (span == ColumnGrid::kNone) {
+            return true;
+        }
+        const double line = std::min(
+            bedHeightAt(columns, span, g.x, g.y) - params_.interfaceThickness, buryLine_[span]);
+        if (g.z >= line - params_.hysteresis) {
+            return true;
+        }
+        buried.add(positionOf(g), static_cast<double>(g.radius), g.id);
+        ++report.buried;
+        return false;
+    });
+}
+
+template <class Real>
+void MatterTransfer<Real>::uncoverShallowOnes(const ColumnGrid& columns, Dem<Real>& dem,
+                                              BuriedGrains& buried, TransferReport& report)
+{
+    for (std::size_t s = 0; s < columns.spanCount(); ++s) {
+        const auto span = static_cast<std::int32_t>(s);
+        const bool isShared = columns.spansOf(columns.columnI[s], columns.columnJ[s]).second > 1;
+        // h may be a slope's drop lower at the column's far side than at its centre.
+        const double lowest = std::min(columns.h[s] - columns.cellSize(), buryLine_[s]) -
+                              params_.interfaceThickness;
+        buried.takeAbove(
+            columns.columnI[s], columns.columnJ[s], lowest,
+            [&](const Vec3& position, double radius, std::uint32_t id) {
+                const double line =
+                    std::min(bedHeightAt(columns, span, position.x(), position.y()) -
+                                 params_.interfaceThickness,
+                             buryLine_[s]);
+                // The span that buried it: on a sloping floor that may begin above the grain.
+                if (position.z() <= line ||
+                    (isShared &&
+                     columns.spanAt(position.x(), position.y(), position.z()) != span)) {
+                    return false;
+                }
+                dem.frozen().add(dem.makeRecord(position, radius, id), {});
+                ++report.uncovered;
+                return true;
+            });
+    }
+}
+
+template <class Real>
+void MatterTransfer<Real>::releaseAll(Dem<Real>& dem, BuriedGrains& buried) const
+{
+    const auto release = [&](const Vec3& position, double radius, std::uint32_t id) {
+        dem.addMobile(position, Vec3::Zero(), Vec3::Zero(), radius, id);
+    };
+    dem.frozen().removeUnless([&](std::size_t k) {
+        const GrainRecord<Real>& g = dem.frozen().record(k);
+        release(positionOf(g), static_cast<double>(g.radius), g.id);
+        return false;
+    });
+    buried.forEach(release);
+    buried.clear();
+}
+
+template class MatterTransfer<float>;
+template class MatterTransfer<double>;
+
+}  // namespace sandflow

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "bcre/columns.h"
+#include "dem/dem.h"
+#include "grains/buried_grains.h"
+#include "transfer/rest_judge.h"
+
+#include <vector>
+
+namespace sandflow {
+
+struct TransferParams {
+    double interfaceThickness = 0.022;  ///< m
+    double buryClearance = 0.016;       ///< m between the lowest mobile and the highest buried grain
+    double hysteresis = 0.002;          ///< m: a grain on the line does not cross to and fro
+    bool sleep = true;
+    RestRules rest;
+};
+
+/// Grains that crossed in one transfer.
+struct TransferReport {
+    std::uint64_t trapped = 0;     ///< mobile -> interface
+    std::uint64_t dislodged = 0;   ///< interface -> mobile
+    std::uint64_t buried = 0;      ///< interface -> buried
+    std::uint64_t uncovered = 0;   ///< buried -> interface
+    std::uint64_t fellAsleep = 0;  ///< mobile -> asleep
+    std::uint64_t woken = 0;       ///< asleep -> mobile
+    double trappedMomentum = 0.0;  ///< kg m/s, sum of |m v| at trapping and falling asleep
+
+    TransferReport& operator+=(const TransferReport& o);
+};
+
+/// Step 2 of the method: moves grains between the flowing layer, the interface and the static bed
+/// so that they agree with h. Deposition traps grains below h that have come to rest; erosion frees
+/// interface grains above h; what lies deeper than the interface is buried, and comes back where it
+/// lay when h falls or moving grains come near.
+///
+/// plan() only reads; apply() carries it out in a fixed order, between Dem::recordContacts() and
+/// Dem::rebuild().
+template <class Real>
+class MatterTransfer {
+public:
+    explicit MatterTransfer(const TransferParams& params) : params_(params) {}
+
+    void plan(const ColumnGrid& columns, const Dem<Real>& dem);
+    TransferReport apply(const ColumnGrid& columns, Dem<Real>& dem, BuriedGrains& buried);
+
+    /// Makes every frozen and buried grain mobile (between recordContacts() and rebuild()).
+    void releaseAll(Dem<Real>& dem, BuriedGrains& buried) const;
+
+    /// Lowest clearance line per span, m: nothing stays buried above it. For tests and diagnostics.
+    const std::vector<double>& buryLine() const { return buryLine_; }
+
+private:
+    enum class Fate : std::uint8_t { stays, trapped, sleeps, dislodged, sinks };
+
+    Fate judgeMobile(const ColumnGrid& columns, const Dem<Real>& dem, std::size_t k) const;
+    Fate judgeFrozen(const ColumnGrid& columns, const Dem<Real>& dem, std::size_t k) const;
+    void findBuryLines(const ColumnGrid& columns, const Dem<Real>& dem);
+    void buryDeepOnes(const ColumnGrid& columns, Dem<Real>& dem, BuriedGrains& buried,
+                      TransferReport& report);
+    void uncoverShallowOnes(const ColumnGrid& columns, Dem<Real>& dem, BuriedGrains& buried,
+                            TransferReport& report);
+
+    TransferParams params_;
+    std::vector<Fate> mobileFate_, frozenFate_;
+    std::vector<double> lowestMobile_, buryLine_;
+    std::vector<GrainRecord<Real>> freed_;
+};
+
+}  // namespace sandflow
