@@ -134,36 +134,53 @@ TransferReport MatterTransfer<Real>::apply(const ColumnGrid& columns, Dem<Real>&
     return report;
 }
 
-/// Nothing may lie buried above h - interface, nor near a moving grain of the 3 x 3 columns.
+/// Quarter of its column that a point lies over: 0 to 3.
+template <class Real>
+std::size_t MatterTransfer<Real>::binOf(const ColumnGrid& columns, std::int32_t span, double x,
+                                        double y)
+{
+    const double u = x / columns.cellSize() - columns.columnI[span];
+    const double v = y / columns.cellSize() - columns.columnJ[span];
+    return kBins * static_cast<std::size_t>(span) + (u >= 0.5 ? 1 : 0) + (v >= 0.5 ? 2 : 0);
+}
+
+/// Nothing may lie buried near a moving grain. Near is judged by quarters of columns: on a slope,
+/// whole columns would keep half as much again from being buried.
 template <class Real>
 void MatterTransfer<Real>::findBuryLines(const ColumnGrid& columns, const Dem<Real>& dem)
 {
-    lowestMobile_.assign(columns.spanCount(), 1e30);
+    lowestMobile_.assign(kBins * columns.spanCount(), 1e30);
     for (const GrainRecord<Real>& g : dem.mobile().record) {
         const std::int32_t span = columns.spanAt(g.x, g.y, g.z);
         if (span != ColumnGrid::kNone) {
-            lowestMobile_[span] = std::min(lowestMobile_[span], g.z);
+            double& lowest = lowestMobile_[binOf(columns, span, g.x, g.y)];
+            lowest = std::min(lowest, g.z);
         }
     }
-    buryLine_.resize(columns.spanCount());
-    const auto spans = static_cast<std::int64_t>(columns.spanCount());
+    buryLine_.resize(lowestMobile_.size());
+    const auto bins = static_cast<std::int64_t>(buryLine_.size());
 #pragma omp parallel for schedule(static)
-    for (std::int64_t s = 0; s < spans; ++s) {
-        double lowest = lowestMobile_[s];
-        // Any span of the eight columns around counts: sand above a table's edge falls past it.
-        for (std::int32_t dj = -1; dj <= 1; ++dj) {
-            for (std::int32_t di = -1; di <= 1; ++di) {
-                const auto [first, count] =
-                    columns.spansOf(columns.columnI[s] + di, columns.columnJ[s] + dj);
+    for (std::int64_t b = 0; b < bins; ++b) {
+        const auto s = static_cast<std::size_t>(b) / kBins;
+        const std::int32_t i = 2 * columns.columnI[s] + static_cast<std::int32_t>(b & 1);
+        const std::int32_t j = 2 * columns.columnJ[s] + static_cast<std::int32_t>(b >> 1 & 1);
+        double lowest = 1e30;
+        for (std::int32_t nj = j - 1; nj <= j + 1; ++nj) {
+            for (std::int32_t ni = i - 1; ni <= i + 1; ++ni) {
+                // Any span of that column counts: sand above a table's edge falls past it.
+                const auto [first, count] = columns.spansOf(ni >> 1, nj >> 1);
                 for (std::int32_t t = first; t < first + count; ++t) {
                     if (columns.ceiling[t] > columns.floor[s] &&
                         columns.floor[t] < columns.ceiling[s]) {
-                        lowest = std::min(lowest, lowestMobile_[t]);
+                        const std::size_t quarter =
+                            static_cast<std::size_t>(ni & 1) + 2 * static_cast<std::size_t>(nj & 1);
+                        lowest = std::min(
+                            lowest, lowestMobile_[kBins * static_cast<std::size_t>(t) + quarter]);
                     }
                 }
             }
         }
-        buryLine_[s] = lowest - params_.buryClearance;
+        buryLine_[b] = lowest - params_.buryClearance;
     }
 }
 
@@ -181,7 +198,8 @@ void MatterTransfer<Real>::buryDeepOnes(const ColumnGrid& columns, Dem<Real>& de
             return true;
         }
         const double line = std::min(
-            bedHeightAt(columns, span, g.x, g.y) - params_.interfaceThickness, buryLine_[span]);
+            bedHeightAt(columns, span, g.x, g.y) - params_.interfaceThickness,
+            buryLine_[binOf(columns, span, g.x, g.y)]);
         if (g.z >= line - params_.hysteresis) {
             return true;
         }
@@ -199,15 +217,18 @@ void MatterTransfer<Real>::uncoverShallowOnes(const ColumnGrid& columns, Dem<Rea
         const auto span = static_cast<std::int32_t>(s);
         const bool isShared = columns.spansOf(columns.columnI[s], columns.columnJ[s]).second > 1;
         // h may be a slope's drop lower at the column's far side than at its centre.
-        const double lowest = std::min(columns.h[s] - columns.cellSize(), buryLine_[s]) -
-                              params_.interfaceThickness;
+        const double clear =
+            *std::min_element(buryLine_.begin() + static_cast<std::ptrdiff_t>(kBins * s),
+                              buryLine_.begin() + static_cast<std::ptrdiff_t>(kBins * (s + 1)));
+        const double lowest =
+            std::min(columns.h[s] - columns.cellSize() - params_.interfaceThickness, clear);
         buried.takeAbove(
             columns.columnI[s], columns.columnJ[s], lowest,
             [&](const Vec3& position, double radius, std::uint32_t id) {
                 const double line =
                     std::min(bedHeightAt(columns, span, position.x(), position.y()) -
                                  params_.interfaceThickness,
-                             buryLine_[s]);
+                             buryLine_[binOf(columns, span, position.x(), position.y())]);
                 // The span that buried it: on a sloping floor that may begin above the grain.
                 if (position.z() <= line ||
                     (isShared &&

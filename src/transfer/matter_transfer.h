@@ -48,7 +48,8 @@ public:
     /// Makes every frozen and buried grain mobile (between recordContacts() and rebuild()).
     void releaseAll(Dem<Real>& dem, BuriedGrains& buried) const;
 
-    /// Lowest clearance line per span, m: nothing stays buried above it. For tests and diagnostics.
+    /// Clearance line per quarter of a span's column, m: nothing stays buried above it. For tests and
+    /// diagnostics.
     const std::vector<double>& buryLine() const { return buryLine_; }
 
 private:
@@ -56,6 +57,8 @@ private:
 
     Fate judgeMobile(const ColumnGrid& columns, const Dem<Real>& dem, std::size_t k) const;
     Fate judgeFrozen(const ColumnGrid& columns, const Dem<Real>& dem, std::size_t k) const;
+    static constexpr std::size_t kBins = 4;  ///< quarters of a column
+    static std::size_t binOf(const ColumnGrid& columns, std::int32_t span, double x, double y);
     void findBuryLines(const ColumnGrid& columns, const Dem<Real>& dem);
     void buryDeepOnes(const ColumnGrid& columns, Dem<Real>& dem, BuriedGrains& buried,
                       TransferReport& report);
