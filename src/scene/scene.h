@@ -61,7 +61,7 @@ struct SurfaceFlowSpec {
     double maxChange = 0.3;              ///< d, largest |dh| in one interval
     bool transport = false;              ///< v_d dR/dx of eq. 2; off: the grains carry R
     double transportSpeed = 0.3;         ///< v_d, m/s, only with transport
-    double freezeSpeed = 0.002;          ///< m/s, mean over freezeTime
+    double freezeSpeed = 0.004;          ///< m/s, mean over freezeTime
     double freezeTime = 0.08;            ///< s at rest before a supported grain may freeze
     double cagedTime = 0.32;             ///< s at rest after which any caged grain may freeze
     double buryClearance = 1.6;          ///< d kept between mobile and buried grains

@@ -8,7 +8,7 @@ namespace sandflow {
 /// When a grain counts as mechanically at rest, and when one that rests must be woken. A grain is
 /// frozen because it is at rest, never because it is deep.
 struct RestRules {
-    double freezeDistance = 1.6e-4;  ///< m: freezeSpeed x freezeTime
+    double freezeDistance = 3.2e-4;  ///< m: freezeSpeed x freezeTime
     double freezeTime = 0.08;        ///< s
     double cagedTime = 0.32;         ///< s
     int contacts = 4;                ///< partners that push, to be frozen after freezeTime

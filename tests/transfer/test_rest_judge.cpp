@@ -68,8 +68,9 @@ TEST(IsAtRest, TooFewContactsOrTooMuchForceMustWaitUntilCaged)
 
 TEST(IsAtRest, ACreepingGrainNever)
 {
-    const RestRules rules;  // at most 2 mm/s
-    for (const double speed : {0.005, 0.0025, 0.05}) {
+    const RestRules rules;
+    const double limit = rules.freezeDistance / rules.freezeTime;  // 4 mm/s
+    for (const double speed : {1.25 * limit, 2.5 * limit, 25.0 * limit}) {
         Dem<float> dem = makeSupported();
         for (int window = 0; window < 100; ++window) {
             dem.mobile().record[0].x += speed * kInterval;
@@ -79,10 +80,10 @@ TEST(IsAtRest, ACreepingGrainNever)
     }
     Dem<float> slow = makeSupported();
     for (int window = 0; window < 5; ++window) {
-        slow.mobile().record[0].x += 0.001 * kInterval;
+        slow.mobile().record[0].x += 0.5 * limit * kInterval;
         updateRestClocks(rules, kInterval, slow);
     }
-    EXPECT_TRUE(isAtRest(rules, slow, 0)) << "1 mm/s is below the limit";
+    EXPECT_TRUE(isAtRest(rules, slow, 0)) << "half the limit";
 }
 
 TEST(IsAtRest, AGrainThatRattlesInItsCage)
