@@ -47,5 +47,10 @@ public:
 template <class Real>
 std::unique_ptr<ForceKernel<Real>> makeForceKernel(const ContactCoefficients& law, bool observe,
                                                    KernelTarget target = KernelTarget::best);
+template <>
+std::unique_ptr<ForceKernel<float>> makeForceKernel(const ContactCoefficients&, bool, KernelTarget);
+template <>
+std::unique_ptr<ForceKernel<double>> makeForceKernel(const ContactCoefficients&, bool,
+                                                     KernelTarget);
 
 }  // namespace sandflow
