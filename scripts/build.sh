@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing and builds Release into build/ (only what changed).
+# Installs what is missing and builds Release into build/ (only what changed): everything, or the
+# targets named as arguments.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
@@ -7,4 +8,4 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 if [ ! -f "$root/build/build.ninja" ]; then
     cmake -S "$root" -B "$root/build" -G Ninja -DCMAKE_BUILD_TYPE=Release
 fi
-cmake --build "$root/build" -j "$(nproc)"
+cmake --build "$root/build" -j "$(nproc)" ${1:+--target "$@"}

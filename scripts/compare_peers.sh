@@ -20,7 +20,7 @@ done
 
 "$root/scripts/install_packages.sh" liggghts openmpi-bin
 if [ -z "${SANDFLOW:-}" ]; then
-    "$root/scripts/build.sh" >/dev/null
+    "$root/scripts/build.sh" sandflow >/dev/null
     SANDFLOW=$root/build/sandflow
 fi
 if [ -n "${WORK:-}" ]; then

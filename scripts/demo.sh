@@ -6,7 +6,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 run=$root/runs/floor-surface-flow
 picture=$root/runs/floor.png
 
-"$root/scripts/build.sh"
+"$root/scripts/build.sh" sandflow
 
 # summary.json is written last: with it, the run is complete. A newer program makes it stale.
 if [ ! -f "$run/summary.json" ] || [ "$root/build/sandflow" -nt "$run/summary.json" ] ||
