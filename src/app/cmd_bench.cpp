@@ -13,6 +13,7 @@ struct BenchOptions {
     KernelBenchOptions kernel;
     std::size_t grains = 107687;
     int threads = 0;
+    std::string simd = "auto";
     std::string positions;
     std::string writePositions;
     bool noRolling = false;
@@ -65,6 +66,7 @@ std::string formatText(const KernelBenchResult& result, const BenchOptions& opti
 ExitCode runKernelBench(BenchOptions options)
 {
     useThreads(options.threads);
+    useKernel(options.simd);
     options.kernel.rolling = !options.noRolling;
     const Bed bed =
         options.positions.empty() ? makeBed(options.grains) : readBed(options.positions);
@@ -100,6 +102,8 @@ void addBenchCommand(CLI::App& app, Action& action)
     kernel->add_option("--repeat", options->kernel.repeats, "Timings, median counts (default 3)")
         ->check(CLI::Range(1, 1000));
     kernel->add_option("--threads", options->threads, "Threads (default: all processors)");
+    kernel->add_option("--simd", options->simd,
+                       "Kernel: auto, scalar, sse4, avx2, avx512 (same results)");
     kernel->add_option("--positions", options->positions, "Take the bed from this file: id,x,y,z")
         ->excludes(grains);
     kernel->add_option("--write-positions", options->writePositions,

@@ -15,6 +15,8 @@ void addRunCommand(CLI::App& app, Action& action)
         ->check(CLI::IsMember({"surface-flow", "dem"}));
     run->add_option("--frames", options->frames, "Stop after this many frames");
     run->add_option("--threads", options->threads, "Threads (default: all processors)");
+    run->add_option("--simd", options->simd,
+                    "Kernel: auto, scalar, sse4, avx2, avx512 (same results)");
     run->add_option("--seed", options->seed, "Seed, instead of the scene's");
     run->add_option("--set", options->overrides, "Another value for a scene key: KEY=VALUE")
         ->type_name("KEY=VALUE")

@@ -1,7 +1,7 @@
 #include "app/environment.h"
 
 #include "core/errors.h"
-#include "dem/force_kernel.h"
+#include "dem/kernel_target.h"
 
 #include <omp.h>
 #include <unistd.h>
@@ -27,6 +27,22 @@ void useThreads(int threads)
         throw InputError(fmt::format("--threads {}: expected 1 to 1024, or 0 for all", threads));
     }
     omp_set_num_threads(threads == 0 ? omp_get_num_procs() : threads);
+}
+
+void useKernel(const std::string& name)
+{
+    for (const KernelTarget target : {KernelTarget::scalar, KernelTarget::sse4, KernelTarget::avx2,
+                                      KernelTarget::avx512}) {
+        if (name == nameOf(target)) {
+            preferKernelTarget(target);
+            return;
+        }
+    }
+    if (name != "auto") {
+        throw InputError(fmt::format(
+            "--simd {}: expected auto, scalar, sse4, avx2 or avx512", name));
+    }
+    preferKernelTarget(KernelTarget::best);
 }
 
 std::string describeVersion()

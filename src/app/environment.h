@@ -13,7 +13,11 @@ void prepareEnvironment(char** argv);
 /// Uses that many threads from now on; 0 means all processors. Throws InputError beyond 1024.
 void useThreads(int threads);
 
-/// "0.1.0, AVX2, OpenMP" and the like.
+/// Takes the kernel of that name: "auto", "scalar", "sse4", "avx2" or "avx512". Throws InputError for
+/// another name and for one that cannot run here.
+void useKernel(const std::string& name);
+
+/// "sandflow 0.1.0 (avx2 kernel)" and the like.
 std::string describeVersion();
 
 }  // namespace sandflow

@@ -75,6 +75,7 @@ void printPlan(const Scene& scene, const RunPlan& plan)
 ExitCode runScene(const RunOptions& options)
 {
     useThreads(options.threads);
+    useKernel(options.simd);
     const Scene scene = readRunScene(options);
     const std::unique_ptr<Simulation> sand = makeSimulation(scene);
     const RunPlan& plan = sand->plan();

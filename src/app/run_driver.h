@@ -15,6 +15,7 @@ struct RunOptions {
     std::string mode;
     std::optional<std::uint64_t> frames;
     int threads = 0;
+    std::string simd = "auto";
     std::optional<std::uint64_t> seed;
     std::vector<std::string> overrides;
     bool force = false;

@@ -5,8 +5,9 @@
 
 #include <cstdint>
 
-/// The two passes of a step over one chunk, as plain pointers, so that they can be compiled once
-/// for every instruction set without dragging the rest of the program along.
+/// The loops that take the time, the two passes of a step over one chunk and the search for
+/// partners, as plain pointers, so that they can be compiled once for every instruction set without
+/// dragging the rest of the program along.
 namespace sandflow {
 
 /// Contact sums of one grain.
@@ -64,11 +65,27 @@ struct MotionWork {
     std::uint32_t brokenGrain;   ///< slot within the chunk, out
 };
 
-/// The passes compiled for one instruction set. Both leave the same bits whatever the set.
+/// Neighbouring slots [begin, end).
+struct SlotRange {
+    std::uint32_t begin, end;
+};
+
+struct NearWork {
+    const float *x, *y, *z, *reach;  ///< m, columns of balls; see BallColumns
+    const SlotRange* ranges;
+    std::uint32_t rangeCount;
+    float at[3], ownReach;           ///< m, the ball
+    std::uint32_t* found;            ///< out: slots in order; room for all of the ranges
+    std::uint32_t foundCount;        ///< out
+};
+using FindNear = void (*)(NearWork& work);
+
+/// The passes compiled for one instruction set. All leave the same bits whatever the set.
 template <class Real>
 struct ChunkPasses {
     void (*sumContacts)(ContactWork<Real>& work);  ///< own pairs, then foreign, in list order
     void (*moveGrains)(MotionWork<Real>& work);
+    FindNear findNear;
 };
 
 }  // namespace sandflow

@@ -34,6 +34,31 @@ public:
         return nullptr;
     }
 
+    /// Springs as grain a sees them, of the contact of two grains with these rows and ids; zero and
+    /// false if they did not touch. Contacts of two mobile grains stand in the rows of both.
+    bool recall(std::uint32_t rowA, std::uint32_t idA, std::uint32_t rowB, std::uint32_t idB,
+                PairHistory<Real>& springs) const
+    {
+        if (const PairHistory<Real>* h = find(rowA, idB)) {
+            springs = *h;
+            return true;
+        }
+        springs = {};
+        if (rowA == kNoRow) {
+            if (const PairHistory<Real>* h = find(rowB, idA)) {
+                springs = {-h->sx, -h->sy, -h->sz, -h->qx, -h->qy, -h->qz};
+                return true;
+            }
+        }
+        return false;
+    }
+
+    std::size_t bytes() const
+    {
+        return sizeof(std::uint32_t) * (end_.capacity() + partner_.capacity()) +
+               sizeof(PairHistory<Real>) * history_.capacity();
+    }
+
     std::size_t size() const { return partner_.size(); }
 
 private:

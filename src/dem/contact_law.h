@@ -71,21 +71,21 @@ inline NormalForce<Real> evaluateNormal(const LawNumbers<Real>& numbers, Real ov
                                         Real closingSpeed, Real effectiveMass,
                                         [[maybe_unused]] Real effectiveRadius)
 {
-    using std::max, std::sqrt;
+    using std::max;
     NormalForce<Real> normal;
     Real elastic;
     if constexpr (law == NormalLaw::linear) {
         // Fe = k delta, c = 2 beta sqrt(m* k)
         elastic = numbers.stiffness * overlap;
         normal.tangentStiffness = numbers.stiffness;
-        normal.dashpot = numbers.damping * sqrt(effectiveMass);
+        normal.dashpot = numbers.damping * root(effectiveMass);
     } else {
         // Fe = K sqrt(R* delta) delta, S = 1.5 K sqrt(R* delta)
-        const Real rising = numbers.stiffness * sqrt(effectiveRadius * overlap);
+        const Real rising = numbers.stiffness * root(effectiveRadius * overlap);
         elastic = rising * overlap;
         normal.tangentStiffness = Real(1.5) * rising;
         if constexpr (law == NormalLaw::hertz) {
-            normal.dashpot = numbers.damping * sqrt(normal.tangentStiffness * effectiveMass);
+            normal.dashpot = numbers.damping * root(normal.tangentStiffness * effectiveMass);
         } else {
             normal.dashpot = numbers.damping * rising;
         }
@@ -115,8 +115,8 @@ inline Tangential<Real> evaluateTangential(const LawNumbers<Real>& numbers,
     // Ft = -(kt s + ct v), |Ft| <= mu Fn
     const Vec<Real> stretched = spring + dt * slip;
     const Vec<Real> trial = -(kt * stretched + ct * slip);
-    const Real size = length(trial);
-    const Real share = select(size > cap, cap / size, Real(1));
+    const Real squared = dot(trial, trial);
+    const Real share = select(squared > cap * cap, cap * inverseRoot(squared), Real(1));
 
     // Sliding shortens the spring in the same proportion, which settles at the usual
     // s = -(Ft + ct v) / kt while that points along the slip. Where ct v exceeds the cap the usual
@@ -127,35 +127,37 @@ inline Tangential<Real> evaluateTangential(const LawNumbers<Real>& numbers,
 /// Rolling resistance by an elastic-plastic spring and dashpot (Ai et al. 2011, model C).
 /// All as lengths: rollingVelocity [m/s] is R* (omega_i - omega_j) without its part along the
 /// normal, spring [m] its integral, already turned into the present tangent plane.
-/// effectiveInertia Ir [kg m2]: 1/Ir = sum of 1/(I + m R^2) over the grains that are free to turn.
-/// The torque is the one on grain i; it never exceeds mu_r R* Fn.
-template <class Real>
+/// rollingMass [kg] is Ir / R*^2 with 1/Ir = sum of 1/(I + m R^2) over the grains that are free to
+/// turn. The torque is the one on grain i; it never exceeds mu_r R* Fn.
+template <RollingLaw law = RollingLaw::springAndDashpot, class Real>
 inline Rolling<Real> evaluateRolling(const LawNumbers<Real>& numbers, const Vec<Real>& spring,
                                      const Vec<Real>& rollingVelocity, Real normalForce,
                                      Real tangentStiffness, Real effectiveRadius,
-                                     Real effectiveInertia, Real dt)
+                                     [[maybe_unused]] Real rollingMass, Real dt)
 {
-    using std::max, std::sqrt;
-    const Real tiny(std::numeric_limits<typename NumberOf<Real>::Type>::min());
+    using std::max;
     // M = -kr theta - Cr omega with theta = s / R*: M / R* = -(kr / R*^2) s - (Cr / R*^2) v
     const Real kr = numbers.rollingStiffness * tangentStiffness;
     const Real cap = numbers.rollingFriction * max(normalForce, Real(0));
 
     const Vec<Real> stretched = spring + dt * rollingVelocity;
-    const Real size = kr * length(stretched);
-    const auto mobilised = size >= cap;
-    const Real share = select(mobilised, cap / max(size, tiny), Real(1));
+    const Vec<Real> elastic = kr * stretched;
+    const Real squared = dot(elastic, elastic);
+    const auto mobilised = squared > cap * cap;
+    const Real share = select(mobilised, cap * inverseRoot(squared), Real(1));
     const Vec<Real> kept = share * stretched;
+    if constexpr (law != RollingLaw::springAndDashpot) {
+        return {-((effectiveRadius * share) * elastic), kept};
+    }
 
     // Cr = 2 eta_r sqrt(Ir kr), off at full mobilisation.
-    const Real cr = select(
-        mobilised, Real(0),
-        numbers.rollingDamping * sqrt(effectiveInertia * kr) / effectiveRadius);
+    const Real cr =
+        select(mobilised, Real(0), numbers.rollingDamping * root(rollingMass * kr));
     // Two fast spinning grains that meet would load the dashpot to a hundred times the cap before
     // the spring is mobilised, so the cap holds for both together.
-    const Vec<Real> trial = -(kr * kept + cr * rollingVelocity);
-    const Real both = length(trial);
-    const Real held = select(both > cap, cap / max(both, tiny), Real(1));
+    const Vec<Real> trial = -(share * elastic + cr * rollingVelocity);
+    const Real both = dot(trial, trial);
+    const Real held = select(both > cap * cap, cap * inverseRoot(both), Real(1));
     return {(effectiveRadius * held) * trial, kept};
 }
 

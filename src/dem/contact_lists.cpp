@@ -1,64 +1,80 @@
 #include "dem/contact_lists.h"
 
+#include "dem/choose_passes.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace sandflow {
 
 template <class Real>
+ContactLists<Real>::ContactLists(double cellSize, double skin, double largestRadius)
+    : skin_(skin),
+      largestRadius_(largestRadius),
+      findNear_(choosePasses<float>(KernelTarget::best, NormalLaw::linear, RollingLaw::none).findNear),
+      cells_(cellSize),
+      strays_(cellSize)
+{
+}
+
+template <class Real>
 void ContactLists<Real>::sortMobile(double horizon, MobileGrains<Real>& mobile)
 {
     const auto n = static_cast<std::int64_t>(mobile.size());
-    centreScratch_.resize(mobile.size());
-    reachScratch_.resize(mobile.size());
+    searchScratch_.resize(mobile.size());
 #pragma omp parallel for schedule(static)
     for (std::int64_t k = 0; k < n; ++k) {
-        const GrainRecord<Real>& g = mobile.record[k];
-        const Vec3 ahead = Vec3(g.vx, g.vy, g.vz) * (0.5 * horizon);
-        centreScratch_[k] = Vec3(g.x, g.y, g.z) + ahead;
-        reachScratch_[k] = 0.5 * skin_ + ahead.norm();
+        searchScratch_[k] = ballAhead(mobile.record[k], horizon);
     }
-    cells_.build(centreScratch_);
+    cells_.build(mobile.size(), [&](std::size_t k) {
+        return Vec3(searchScratch_[k].x, searchScratch_[k].y, searchScratch_[k].z);
+    });
 
     mobile.next.resize(mobile.size());
     memoryScratch_.resize(mobile.size());
-    centre_.resize(mobile.size());
-    reach_.resize(mobile.size());
     search_.resize(mobile.size());
+    columns_.resize(mobile.size());
     const std::span<const std::uint32_t> order = cells_.order();
 #pragma omp parallel for schedule(static)
     for (std::int64_t k = 0; k < n; ++k) {
         mobile.next[k] = mobile.record[order[k]];
         memoryScratch_[k] = mobile.memory[order[k]];
-        centre_[k] = centreScratch_[order[k]];
-        reach_[k] = reachScratch_[order[k]];
-        search_[k] = {centre_[k].x(), centre_[k].y(), centre_[k].z(),
-                      reach_[k] + static_cast<double>(mobile.next[k].radius)};
+        search_[k] = searchScratch_[order[k]];
+        columns_.set(k, search_[k]);
     }
     mobile.record.swap(mobile.next);
     mobile.memory.swap(memoryScratch_);
+    placeBalls(mobile);
+    spreadSearchRadius();
+}
 
-    const std::size_t chunkCount = (mobile.size() + kChunkSize - 1) / kChunkSize;
-    chunks_.resize(chunkCount);
-    origins_.resize(chunkCount);
+/// The balls as the kernel sees them.
+template <class Real>
+void ContactLists<Real>::placeBalls(const MobileGrains<Real>& mobile)
+{
+    const auto chunkCount =
+        static_cast<std::int64_t>((mobile.size() + kChunkSize - 1) / kChunkSize);
+    chunks_.resize(static_cast<std::size_t>(chunkCount));
+    origins_.resize(static_cast<std::size_t>(chunkCount));
     balls_.resize(mobile.size());
-    cellOfSlot_.resize(mobile.size());
-    for (std::uint32_t c = 0; c < cells_.cells().size(); ++c) {
-        std::fill(cellOfSlot_.begin() + cells_.cells()[c].begin,
-                  cellOfSlot_.begin() + cells_.cells()[c].end, c);
-    }
 #pragma omp parallel for schedule(static)
-    for (std::int64_t k = 0; k < n; ++k) {
-        const std::int64_t chunk = k / kChunkSize;
-        const Vec3 origin = centre_[chunk * kChunkSize];
-        const Vec3f ball = (centre_[k] - origin).cast<float>();
-        // The ball is left a little early rather than late when its centre rounds.
-        balls_[k] = {ball.x(), ball.y(), ball.z(), static_cast<float>(reach_[k]) * 0.9999f};
-        if (k % kChunkSize == 0) {
-            origins_[chunk] = origin;
+    for (std::int64_t c = 0; c < chunkCount; ++c) {
+        const std::size_t first = static_cast<std::size_t>(c) * kChunkSize;
+        const std::size_t last = std::min<std::size_t>(first + kChunkSize, mobile.size());
+        origins_[c] = Vec3(search_[first].x, search_[first].y, search_[first].z);
+        for (std::size_t k = first; k < last; ++k) {
+            giveBall(static_cast<std::uint32_t>(k), search_[k], mobile.record[k].radius);
         }
     }
-    spreadSearchRadius();
+}
+
+template <class Real>
+void ContactLists<Real>::giveBall(std::uint32_t slot, const SearchBall& ball, Real radius)
+{
+    const Vec3f place = (Vec3(ball.x, ball.y, ball.z) - origins_[slot / kChunkSize]).cast<float>();
+    // The ball is left a little early rather than late when numbers round.
+    balls_[slot] = {place.x(), place.y(), place.z(),
+                    (ball.reach - static_cast<float>(radius)) * 0.9999f};
 }
 
 /// A grain with a long reach can have partners cells away, and those must look as far to find it.
@@ -67,19 +83,28 @@ void ContactLists<Real>::spreadSearchRadius()
 {
     const std::span<const SortedCells::Cell> cells = cells_.cells();
     searchRadius_.assign(cells.size(), 1);
-    cellReach_.assign(cells.size(), 0.0);
-    longestReach_ = 0.0;
+    cellReach_.assign(cells.size(), 0.0f);
+    cellOfSlot_.resize(search_.size());
     strays_.clear();
-    std::vector<std::pair<std::uint32_t, int>> wide;
-    for (std::uint32_t c = 0; c < cells.size(); ++c) {
+    const auto count = static_cast<std::int64_t>(cells.size());
+    float longest = 0.0f;
+#pragma omp parallel for schedule(static) reduction(max : longest)
+    for (std::int64_t c = 0; c < count; ++c) {
         for (std::uint32_t k = cells[c].begin; k < cells[c].end; ++k) {
             cellReach_[c] = std::max(cellReach_[c], search_[k].reach);
+            cellOfSlot_[k] = static_cast<std::uint32_t>(c);
         }
-        longestReach_ = std::max(longestReach_, cellReach_[c]);
-        const int radius =
-            static_cast<int>(std::ceil(2.0 * cellReach_[c] / cells_.cellSize()));
-        SAND_CHECK(radius < 100, "a grain needs {} cells of search: it is far too fast", radius);
-        if (radius > 1) {
+        longest = std::max(longest, cellReach_[c]);
+    }
+    longestReach_ = static_cast<double>(longest);
+    const auto radiusFor = [&](float reach) {
+        return static_cast<int>(std::ceil(2.0 * static_cast<double>(reach) / cells_.cellSize()));
+    };
+    SAND_CHECK(radiusFor(longest) < 100, "a grain needs {} cells of search: it is far too fast",
+               radiusFor(longest));
+    std::vector<std::pair<std::uint32_t, int>> wide;
+    for (std::uint32_t c = 0; radiusFor(longest) > 1 && c < cells.size(); ++c) {
+        if (const int radius = radiusFor(cellReach_[c]); radius > 1) {
             wide.emplace_back(c, radius);
         }
     }
@@ -99,20 +124,82 @@ void ContactLists<Real>::search(const MobileGrains<Real>& mobile, FixedView froz
     const auto chunkCount = static_cast<std::int64_t>(chunks_.size());
 #pragma omp parallel
     {
-        SearchScratch scratch;
+        Surroundings near;
 #pragma omp for schedule(dynamic, 1)
         for (std::int64_t c = 0; c < chunkCount; ++c) {
-            searchChunk(static_cast<std::uint32_t>(c), mobile, frozen, boundary, walls, time, book,
-                        scratch);
+            searchChunk(static_cast<std::uint32_t>(c), mobile, frozen, boundary, book, near);
+            searchWalls(static_cast<std::uint32_t>(c), mobile, walls, time, book);
         }
+    }
+}
+
+/// Slots whose balls may meet one of this cell, but for mobile ones whose pairs with it are listed
+/// under their own, lower slot of the chunk.
+template <class Real>
+void ContactLists<Real>::findSurroundings(std::uint32_t cell, std::uint32_t firstOfChunk,
+                                          const FixedView& frozen, const FixedView& boundary,
+                                          Surroundings& near) const
+{
+    const SortedCells::Cell& home = cells_.cells()[cell];
+    const CellIndex& at = home.index;
+    std::uint32_t most = 0;
+    // Cells too far apart for the longest reach in either hold no partners: near a fast grain most
+    // of the cells within the search radius do not.
+    const auto collect = [&](const SortedCells& cells, auto reachOf, std::uint32_t skipBegin,
+                             std::uint32_t skipEnd, std::vector<SlotRange>& ranges) {
+        ranges.clear();
+        const auto gap = [&](std::int32_t a, std::int32_t b) {
+            return std::max(std::abs(a - b) - 1, 0) * cells.cellSize();
+        };
+        const auto add = [&](std::uint32_t begin, std::uint32_t end) {
+            if (begin < end) {
+                ranges.push_back({begin, end});
+            }
+        };
+        cells.visitNear(at, searchRadius_[cell], [&](const SortedCells::Cell& other) {
+            const double dx = gap(other.index.i, at.i), dy = gap(other.index.j, at.j),
+                         dz = gap(other.index.k, at.k);
+            const double reach = static_cast<double>(cellReach_[cell]) + reachOf(other);
+            if (dx * dx + dy * dy + dz * dz < reach * reach) {
+                add(other.begin, std::min(other.end, skipBegin));
+                add(std::max(other.begin, skipEnd), other.end);
+            }
+        });
+        // In slot order, so that lists do not depend on the search's. Cells that follow each other
+        // along the curve become one range.
+        std::sort(ranges.begin(), ranges.end(),
+                  [](const SlotRange& a, const SlotRange& b) { return a.begin < b.begin; });
+        std::size_t kept = 0;
+        std::uint32_t sum = 0;
+        for (const SlotRange& range : ranges) {
+            sum += range.end - range.begin;
+            if (kept > 0 && ranges[kept - 1].end == range.begin) {
+                ranges[kept - 1].end = range.end;
+            } else {
+                ranges[kept++] = range;
+            }
+        }
+        ranges.resize(kept);
+        most = std::max(most, sum);
+    };
+    collect(
+        cells_,
+        [&](const SortedCells::Cell& other) {
+            return static_cast<double>(cellReach_[&other - cells_.cells().data()]);
+        },
+        firstOfChunk, std::max(home.begin, firstOfChunk), near.mobile);
+    const auto fixedReach = [&](const SortedCells::Cell&) { return largestRadius_; };
+    collect(frozen.cells, fixedReach, 0, 0, near.frozen);
+    collect(boundary.cells, fixedReach, 0, 0, near.boundary);
+    if (near.found.size() < most) {
+        near.found.resize(2 * most);
     }
 }
 
 template <class Real>
 void ContactLists<Real>::searchChunk(std::uint32_t chunk, const MobileGrains<Real>& mobile,
                                      const FixedView& frozen, const FixedView& boundary,
-                                     std::span<const Primitive> walls, double time,
-                                     const ContactBook<Real>& book, SearchScratch& scratch)
+                                     const ContactBook<Real>& book, Surroundings& near)
 {
     ChunkContacts<Real>& out = chunks_[chunk];
     out.clear();
@@ -121,111 +208,69 @@ void ContactLists<Real>::searchChunk(std::uint32_t chunk, const MobileGrains<Rea
         std::min<std::uint32_t>(first + kChunkSize, static_cast<std::uint32_t>(mobile.size()));
     out.grainCount = last - first;
 
-    // Cells too far apart for the longest reach in either hold no partners: near a fast grain most
-    // of the cells within the search radius do not.
-    const auto collect = [&](const SortedCells& cells, const CellIndex& at, int radius,
-                             double ownReach, auto reachOf, std::vector<Range>& ranges) {
-        ranges.clear();
-        const auto gap = [&](std::int32_t a, std::int32_t b) {
-            return std::max(std::abs(a - b) - 1, 0) * cells.cellSize();
-        };
-        cells.visitNear(at, radius, [&](const SortedCells::Cell& cell) {
-            const double dx = gap(cell.index.i, at.i), dy = gap(cell.index.j, at.j),
-                         dz = gap(cell.index.k, at.k);
-            const double reach = ownReach + reachOf(cell);
-            if (dx * dx + dy * dy + dz * dz < reach * reach) {
-                ranges.push_back({cell.begin, cell.end});
-            }
-        });
-    };
-    const auto mobileReach = [&](const SortedCells::Cell& cell) {
-        return cellReach_[&cell - cells_.cells().data()];
-    };
-    const auto fixedReach = [&](const SortedCells::Cell&) { return largestRadius_; };
-    const auto remembered = [&](const GrainRecord<Real>& a, std::uint32_t rowA, std::uint32_t idB,
-                                std::uint32_t rowB, PairHistory<Real>& springs) {
-        if (rowA != ContactBook<Real>::kNoRow) {  // a contact stands in the rows of both
-            const auto* h = book.find(rowA, idB);
-            springs = h ? *h : PairHistory<Real>{};
-            return h != nullptr;
-        }
-        if (const auto* h = book.find(rowB, a.id)) {
-            springs = {-h->sx, -h->sy, -h->sz, -h->qx, -h->qy, -h->qz};
-            return true;
-        }
-        springs = {};
-        return false;
-    };
-
     std::uint32_t currentCell = 0xFFFFFFFFu;
     for (std::uint32_t i = first; i < last; ++i) {
         if (cellOfSlot_[i] != currentCell) {
             currentCell = cellOfSlot_[i];
-            const CellIndex at = cells_.cells()[currentCell].index;
-            const int radius = searchRadius_[currentCell];
-            const double reach = cellReach_[currentCell];
-            collect(cells_, at, radius, reach, mobileReach, scratch.mobile);
-            collect(frozen.cells, at, radius, reach, fixedReach, scratch.frozen);
-            collect(boundary.cells, at, radius, reach, fixedReach, scratch.boundary);
+            findSurroundings(currentCell, first, frozen, boundary, near);
         }
-        const GrainRecord<Real>& a = mobile.record[i];
-        const std::uint32_t rowA = mobile.memory[i].row;
-        const Vec3 at = centre_[i];
-        const double reach = search_[i].reach;
+        const SearchBall& ball = search_[i];
+        const std::uint32_t row = mobile.memory[i].row;
+        const auto slot = static_cast<std::uint16_t>(i - first);
+        const auto find = [&](const BallColumns& columns, const std::vector<SlotRange>& ranges) {
+            NearWork sieve;
+            sieve.x = columns.x.data(), sieve.y = columns.y.data(), sieve.z = columns.z.data();
+            sieve.reach = columns.reach.data();
+            sieve.ranges = ranges.data();
+            sieve.rangeCount = static_cast<std::uint32_t>(ranges.size());
+            sieve.at[0] = static_cast<float>(ball.x);
+            sieve.at[1] = static_cast<float>(ball.y);
+            sieve.at[2] = static_cast<float>(ball.z);
+            // Wider than all that floats may round.
+            const double size = std::abs(ball.x) + std::abs(ball.y) + std::abs(ball.z);
+            sieve.ownReach = ball.reach * 1.0001f + static_cast<float>(1e-6 * (size + longestReach_));
+            sieve.found = near.found.data();
+            sieve.foundCount = 0;
+            findNear_(sieve);
+            return std::span<const std::uint32_t>(near.found.data(), sieve.foundCount);
+        };
         PairHistory<Real> springs;
+        const auto listForeign = [&](PartnerSource source, std::uint32_t j, bool live) {
+            out.foreign.push_back(partner::pack(source, j) | (live ? partner::kLive : 0u));
+            out.foreignSlot.push_back(slot);
+            out.foreignHistory.push_back(springs);
+        };
 
-        // Mobile partners, each list in slot order so that it does not depend on the search's.
-        scratch.partners.clear();
-        for (const Range& range : scratch.mobile) {
-            for (std::uint32_t j = range.begin; j < range.end; ++j) {
-                const SearchBall& b = search_[j];
-                const double limit = reach + b.reach;
-                const double dx = b.x - at.x(), dy = b.y - at.y(), dz = b.z - at.z();
-                if (dx * dx + dy * dy + dz * dz < limit * limit && (j > i || j < first)) {
-                    scratch.partners.push_back(j);
-                }
+        for (const std::uint32_t j : find(columns_, near.mobile)) {
+            const SearchBall& other = search_[j];
+            if ((j <= i && j >= first) || !ball.meets(other)) {
+                continue;
             }
-        }
-        std::sort(scratch.partners.begin(), scratch.partners.end());
-        for (const std::uint32_t j : scratch.partners) {
-            const bool live = remembered(a, rowA, mobile.record[j].id, mobile.memory[j].row, springs);
-            const std::uint32_t flag = live ? partner::kLive : 0u;
-            if (j >= first && j < last) {
-                out.own.push_back(own_pair::pack(i - first, j - first) | flag);
-                out.ownHistory.push_back(springs);
+            const bool live = book.recall(row, ball.id, mobile.memory[j].row, other.id, springs);
+            if (j < first || j >= last) {
+                listForeign(PartnerSource::mobile, j, live);
             } else {
-                out.foreign.push_back(partner::pack(PartnerSource::mobile, j) | flag);
-                out.foreignSlot.push_back(static_cast<std::uint16_t>(i - first));
-                out.foreignHistory.push_back(springs);
+                out.own.push_back(own_pair::pack(slot, j - first) | (live ? own_pair::kLive : 0u));
+                out.ownHistory.push_back(springs);
             }
         }
-        // Fixed partners.
-        const auto listFixed = [&](const FixedView& fixed, PartnerSource source,
-                                   const std::vector<Range>& ranges) {
-            scratch.partners.clear();
-            for (const Range& range : ranges) {
-                for (std::uint32_t j = range.begin; j < range.end; ++j) {
-                    const GrainRecord<Real>& b = fixed.record[j];
-                    const double limit = reach + static_cast<double>(b.radius);
-                    const double dx = b.x - at.x(), dy = b.y - at.y(), dz = b.z - at.z();
-                    if (dx * dx + dy * dy + dz * dz < limit * limit) {
-                        scratch.partners.push_back(j);
-                    }
-                }
+        const auto listFixed = [&](const FixedView& fixed, const std::vector<SlotRange>& ranges,
+                                   PartnerSource source) {
+            if (ranges.empty()) {
+                return;
             }
-            std::sort(scratch.partners.begin(), scratch.partners.end());
-            for (const std::uint32_t j : scratch.partners) {
-                const bool live = remembered(a, rowA, fixed.record[j].id,
-                                             ContactBook<Real>::kNoRow, springs);
-                out.foreign.push_back(partner::pack(source, j) | (live ? partner::kLive : 0u));
-                out.foreignSlot.push_back(static_cast<std::uint16_t>(i - first));
-                out.foreignHistory.push_back(springs);
+            for (const std::uint32_t j : find(fixed.balls, ranges)) {
+                const SearchBall other = ballOfFixed(fixed.record[j]);
+                if (ball.meets(other)) {
+                    listForeign(source, j,
+                                book.recall(row, ball.id, ContactBook<Real>::kNoRow, other.id,
+                                            springs));
+                }
             }
         };
-        listFixed(frozen, PartnerSource::frozen, scratch.frozen);
-        listFixed(boundary, PartnerSource::boundary, scratch.boundary);
+        listFixed(frozen, near.frozen, PartnerSource::frozen);
+        listFixed(boundary, near.boundary, PartnerSource::boundary);
     }
-    searchWalls(chunk, mobile, walls, time, book);
 }
 
 template <class Real>
@@ -241,10 +286,13 @@ void ContactLists<Real>::searchWalls(std::uint32_t chunk, const MobileGrains<Rea
     const std::uint32_t last =
         std::min<std::uint32_t>(first + kChunkSize, static_cast<std::uint32_t>(mobile.size()));
     // A ball about the whole chunk tells at once which walls are out of its reach.
+    const auto centreOf = [&](std::uint32_t i) {
+        return Vec3(search_[i].x, search_[i].y, search_[i].z);
+    };
     double chunkReach = 0.0;
     for (std::uint32_t i = first; i < last; ++i) {
-        chunkReach = std::max(chunkReach, (centre_[i] - origins_[chunk]).norm() + reach_[i] +
-                                              static_cast<double>(mobile.record[i].radius));
+        chunkReach = std::max(chunkReach, (centreOf(i) - origins_[chunk]).norm() +
+                                              static_cast<double>(search_[i].reach));
     }
     for (std::uint32_t w = 0; w < walls.size(); ++w) {
         if (walls[w].rough || !walls[w].existsAt(time) ||
@@ -252,8 +300,8 @@ void ContactLists<Real>::searchWalls(std::uint32_t chunk, const MobileGrains<Rea
             continue;
         }
         for (std::uint32_t i = first; i < last; ++i) {
-            const double reach = static_cast<double>(mobile.record[i].radius) + reach_[i];
-            if (nearestSurface(walls[w], centre_[i]).distance < reach) {
+            if (nearestSurface(walls[w], centreOf(i)).distance <
+                static_cast<double>(search_[i].reach)) {
                 const auto* springs = book.find(mobile.memory[i].row, kFirstWallId + w);
                 out.walls.push_back({(i - first) | (springs ? partner::kLive : 0u), w});
                 out.wallHistory.push_back(springs ? *springs : PairHistory<Real>{});
@@ -269,67 +317,42 @@ void ContactLists<Real>::followStray(std::uint32_t slot, const MobileGrains<Real
                                      const FixedView& frozen, const FixedView& boundary,
                                      std::span<const Primitive> walls, double time)
 {
-    const auto [centre, reach] = ballAhead(mobile.record[slot]);
-    const SearchBall ball = {centre.x(), centre.y(), centre.z(), reach};
-    const auto meets = [](const SearchBall& a, double x, double y, double z, double otherReach) {
-        const double dx = a.x - x, dy = a.y - y, dz = a.z - z, limit = a.reach + otherReach;
-        return dx * dx + dy * dy + dz * dz < limit * limit;
-    };
-    std::vector<SearchBall> older = {search_[slot]};
-    for (const Stray& stray : strays_) {
-        if (stray.slot == slot) {
-            older.push_back(stray.ball);
-        }
-    }
-    const auto metBefore = [&](double x, double y, double z, double otherReach) {
-        return std::any_of(older.begin(), older.end(), [&](const SearchBall& b) {
-            return meets(b, x, y, z, otherReach);
-        });
+    const SearchBall ball = ballAhead(mobile.record[slot]);
+    const Vec3 centre(ball.x, ball.y, ball.z);
+    const auto metBefore = [&](const SearchBall& other) {
+        return search_[slot].meets(other) ||
+               strays_.anyOf(slot, [&](const SearchBall& older) { return older.meets(other); });
     };
 
     // Mobile partners: by their first balls, which are in the cells, and by later ones.
-    std::vector<std::uint32_t> partners;
+    std::vector<std::uint32_t>& partners = strayPartners_;
+    partners.clear();
+    const auto cellsAway = [&](double otherReach) {
+        return static_cast<std::int32_t>(
+            std::ceil((static_cast<double>(ball.reach) + otherReach) / cells_.cellSize()));
+    };
     const CellIndex at = cells_.cellOf(centre);
-    const auto radius = static_cast<std::int32_t>(
-        std::ceil((reach + longestReach_) / cells_.cellSize()));
-    cells_.visitNear(at, radius, [&](const SortedCells::Cell& cell) {
+    cells_.visitNear(at, cellsAway(longestReach_), [&](const SortedCells::Cell& cell) {
         for (std::uint32_t j = cell.begin; j < cell.end; ++j) {
-            const SearchBall& b = search_[j];
-            if (j != slot && meets(ball, b.x, b.y, b.z, b.reach)) {
+            if (ball.meets(search_[j])) {
                 partners.push_back(j);
             }
         }
     });
-    for (const Stray& other : strays_) {
-        if (other.slot != slot &&
-            meets(ball, other.ball.x, other.ball.y, other.ball.z, other.ball.reach)) {
-            partners.push_back(other.slot);
-        }
-    }
+    strays_.visitMeeting(ball, [&](std::uint32_t j) { partners.push_back(j); });
     std::sort(partners.begin(), partners.end());
     partners.erase(std::unique(partners.begin(), partners.end()), partners.end());
-    std::erase_if(partners, [&](std::uint32_t j) {
-        const SearchBall& b = search_[j];
-        return metBefore(b.x, b.y, b.z, b.reach) ||
-               std::any_of(strays_.begin(), strays_.end(), [&](const Stray& other) {
-                   return other.slot == j && metBefore(other.ball.x, other.ball.y, other.ball.z,
-                                                       other.ball.reach);
-               });
-    });
     for (const std::uint32_t j : partners) {
-        appendPair(slot, j);
+        if (j != slot && !metBefore(search_[j]) && !strays_.anyOf(j, metBefore)) {
+            appendPair(slot, j);
+        }
     }
 
     const auto appendFixed = [&](const FixedView& fixed, PartnerSource source) {
-        const auto cellsAway = static_cast<std::int32_t>(
-            std::ceil((reach + largestRadius_) / fixed.cells.cellSize()));
-        fixed.cells.visitNear(fixed.cells.cellOf(centre), cellsAway,
-                              [&](const SortedCells::Cell& cell) {
+        fixed.cells.visitNear(at, cellsAway(largestRadius_), [&](const SortedCells::Cell& cell) {
             for (std::uint32_t j = cell.begin; j < cell.end; ++j) {
-                const GrainRecord<Real>& b = fixed.record[j];
-                const auto otherReach = static_cast<double>(b.radius);
-                if (meets(ball, b.x, b.y, b.z, otherReach) &&
-                    !metBefore(b.x, b.y, b.z, otherReach)) {
+                const SearchBall other = ballOfFixed(fixed.record[j]);
+                if (ball.meets(other) && !metBefore(other)) {
                     appendForeign(slot, partner::pack(source, j));
                 }
             }
@@ -344,19 +367,16 @@ void ContactLists<Real>::followStray(std::uint32_t slot, const MobileGrains<Real
             continue;
         }
         const auto reaches = [&](const SearchBall& b) {
-            return nearestSurface(walls[w], Vec3(b.x, b.y, b.z)).distance < b.reach;
+            return nearestSurface(walls[w], Vec3(b.x, b.y, b.z)).distance <
+                   static_cast<double>(b.reach);
         };
-        if (reaches(ball) && std::none_of(older.begin(), older.end(), reaches)) {
+        if (reaches(ball) && !reaches(search_[slot]) && !strays_.anyOf(slot, reaches)) {
             chunk.walls.push_back({slot % kChunkSize, w});
             chunk.wallHistory.push_back({});
         }
     }
-
-    strays_.push_back({slot, ball});
-    const Vec3f relative = (centre - origins_[slot / kChunkSize]).template cast<float>();
-    const double ownReach = reach - static_cast<double>(mobile.record[slot].radius);
-    balls_[slot] = {relative.x(), relative.y(), relative.z(),
-                    static_cast<float>(ownReach) * 0.9999f};
+    strays_.add(slot, ball);
+    giveBall(slot, ball, mobile.record[slot].radius);
 }
 
 template <class Real>
@@ -385,7 +405,11 @@ void ContactLists<Real>::appendForeign(std::uint32_t slot, std::uint32_t packedP
 template <class Real>
 std::size_t ContactLists<Real>::bytes() const
 {
-    std::size_t sum = balls_.capacity() * sizeof(Ball);
+    std::size_t sum = balls_.capacity() * sizeof(Ball) + columns_.bytes() +
+                      frozenColumns_.balls.bytes() + boundaryColumns_.balls.bytes() +
+                      (search_.capacity() + searchScratch_.capacity()) * sizeof(SearchBall) +
+                      cellOfSlot_.capacity() * sizeof(std::uint32_t) +
+                      memoryScratch_.capacity() * sizeof(GrainMemory) + cells_.bytes();
     for (const ChunkContacts<Real>& chunk : chunks_) {
         sum += chunk.bytes();
     }

@@ -2,6 +2,8 @@
 
 #include "dem/chunk_contacts.h"
 #include "dem/contact_book.h"
+#include "dem/search_ball.h"
+#include "dem/stray_balls.h"
 #include "grains/fixed_grains.h"
 #include "grains/mobile_grains.h"
 #include "solids/primitive.h"
@@ -29,10 +31,7 @@ public:
         float reach;     ///< m
     };
 
-    ContactLists(double cellSize, double skin, double largestRadius)
-        : skin_(skin), largestRadius_(largestRadius), cells_(cellSize)
-    {
-    }
+    ContactLists(double cellSize, double skin, double largestRadius);
 
     /// Sorts the mobile grains along cells and lists their possible contacts. `horizon` is T [s].
     /// Springs of contacts that lived before come from `book`. `needBoundary` is called with the
@@ -48,8 +47,10 @@ public:
         needBoundary(cells_);
         frozen.sort();
         boundary.sort();
-        search(mobile, {frozen.records(), frozen.cells()}, {boundary.records(), boundary.cells()},
-               walls, time, book);
+        frozenColumns_.follow(frozen);
+        boundaryColumns_.follow(boundary);
+        search(mobile, viewOf(frozen, frozenColumns_), viewOf(boundary, boundaryColumns_), walls,
+               time, book);
     }
 
     /// A mobile grain left its ball: gives it another one from where it is now and appends the pairs
@@ -60,16 +61,14 @@ public:
                      const FixedGrains<Real, BoundaryInfo>& boundary,
                      std::span<const Primitive> walls, double time)
     {
-        followStray(slot, mobile, {frozen.records(), frozen.cells()},
-                    {boundary.records(), boundary.cells()}, walls, time);
+        followStray(slot, mobile, viewOf(frozen, frozenColumns_),
+                    viewOf(boundary, boundaryColumns_), walls, time);
     }
 
-    /// The ball that followStray would give: centre, and reach together with the grain's radius.
-    std::pair<Vec3, double> ballAhead(const GrainRecord<Real>& grain) const
+    /// The ball that followStray would give.
+    SearchBall ballAhead(const GrainRecord<Real>& grain) const
     {
-        const Vec3 ahead = Vec3(grain.vx, grain.vy, grain.vz) * (0.5 * horizon_);
-        return {Vec3(grain.x, grain.y, grain.z) + ahead,
-                0.5 * skin_ + ahead.norm() + static_cast<double>(grain.radius)};
+        return ballAhead(grain, horizon_);
     }
 
     bool isInBall(std::uint32_t slot, const GrainRecord<Real>& grain) const
@@ -99,25 +98,58 @@ public:
     std::size_t bytes() const;
 
 private:
+    /// The columns of fixed grains, made anew when those were sorted anew.
+    struct FixedColumns {
+        BallColumns balls;
+        std::uint64_t version = 0;
+
+        template <class Info>
+        void follow(const FixedGrains<Real, Info>& fixed)
+        {
+            if (version == fixed.version()) {
+                return;
+            }
+            version = fixed.version();
+            balls.resize(fixed.size());
+            for (std::size_t k = 0; k < fixed.size(); ++k) {
+                balls.set(k, ballOfFixed(fixed.record(k)));
+            }
+        }
+    };
     struct FixedView {
         const std::vector<GrainRecord<Real>>& record;
         const SortedCells& cells;
+        const BallColumns& balls;
     };
-    struct Range {
-        std::uint32_t begin, end;
-    };
-    struct SearchScratch {
-        std::vector<Range> mobile, frozen, boundary;
-        std::vector<std::uint32_t> partners;
+    template <class Info>
+    static FixedView viewOf(const FixedGrains<Real, Info>& fixed, const FixedColumns& columns)
+    {
+        return {fixed.records(), fixed.cells(), columns.balls};
+    }
+
+    /// Neighbours of one cell as ranges of slots, and who of them one grain may meet.
+    struct Surroundings {
+        std::vector<SlotRange> mobile, frozen, boundary;
+        std::vector<std::uint32_t> found;
     };
 
+    SearchBall ballAhead(const GrainRecord<Real>& grain, double horizon) const
+    {
+        const Vec3 ahead = Vec3(grain.vx, grain.vy, grain.vz) * (0.5 * horizon);
+        return {grain.x + ahead.x(), grain.y + ahead.y(), grain.z + ahead.z(),
+                static_cast<float>(0.5 * skin_ + ahead.norm() + static_cast<double>(grain.radius)),
+                grain.id};
+    }
+    void giveBall(std::uint32_t slot, const SearchBall& ball, Real radius);
     void sortMobile(double horizon, MobileGrains<Real>& mobile);
+    void placeBalls(const MobileGrains<Real>& mobile);
     void spreadSearchRadius();
     void search(const MobileGrains<Real>& mobile, FixedView frozen, FixedView boundary,
                 std::span<const Primitive> walls, double time, const ContactBook<Real>& book);
     void searchChunk(std::uint32_t chunk, const MobileGrains<Real>& mobile, const FixedView& frozen,
-                     const FixedView& boundary, std::span<const Primitive> walls, double time,
-                     const ContactBook<Real>& book, SearchScratch& scratch);
+                     const FixedView& boundary, const ContactBook<Real>& book, Surroundings& near);
+    void findSurroundings(std::uint32_t cell, std::uint32_t firstOfChunk, const FixedView& frozen,
+                          const FixedView& boundary, Surroundings& near) const;
     void searchWalls(std::uint32_t chunk, const MobileGrains<Real>& mobile,
                      std::span<const Primitive> walls, double time,
                      const ContactBook<Real>& book);
@@ -128,22 +160,16 @@ private:
     void appendForeign(std::uint32_t slot, std::uint32_t packedPartner);
 
     double skin_, largestRadius_;
+    FindNear findNear_;
     double horizon_ = 0.0;  ///< s, T of these lists
     SortedCells cells_;
-    std::vector<Vec3> centre_, centreScratch_;
-    std::vector<double> reach_, reachScratch_;
-    struct SearchBall {
-        double x, y, z;  ///< m, centre of the ball
-        double reach;    ///< m, of the ball and the grain's own radius
-    };
-    std::vector<SearchBall> search_;
-    struct Stray {
-        std::uint32_t slot;
-        SearchBall ball;
-    };
-    std::vector<Stray> strays_;       ///< further balls; a grain may be in any of its own
+    std::vector<SearchBall> search_, searchScratch_;
+    BallColumns columns_;  ///< of search_
+    FixedColumns frozenColumns_, boundaryColumns_;
+    StrayBalls strays_;               ///< further balls; a grain may be in any of its own
+    std::vector<std::uint32_t> strayPartners_;
     double longestReach_ = 0.0;       ///< m, over all cells
-    std::vector<double> cellReach_;   ///< m, longest reach of the grains of each cell
+    std::vector<float> cellReach_;    ///< m, longest reach of the grains of each cell
     std::vector<std::uint32_t> cellOfSlot_;
     std::vector<std::uint8_t> searchRadius_;
     std::vector<GrainMemory> memoryScratch_;

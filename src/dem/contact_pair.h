@@ -24,7 +24,7 @@ struct ContactGeometry {
     Real arm{};              ///< m, from the grain's centre to the contact point
     Real partnerArm{};       ///< m
     Real effectiveRadius{};  ///< m, R*
-    Real rollingRadius2{};   ///< m2, R_i R_j; R^2 at a wall
+    Real radiusRatio{};      ///< (R_i + R_j)^2 / R_i R_j: 4 for equal grains; 1 at a wall
 };
 
 template <class Real>
@@ -46,21 +46,25 @@ inline ContactGeometry<Real> measureContact(const Vec<Real>& apart, Real radius,
 {
     ContactGeometry<Real> at;
     const Real radii = radius + partnerRadius;
-    const Real distance = length(apart);
-    at.normal = (Real(1) / distance) * apart;
-    at.overlap = radii - distance;
+    const Real squared = dot(apart, apart);
+    // The overlap is a small difference, so here the root is exact.
+    using std::sqrt;
+    at.overlap = radii - sqrt(squared);
+    at.normal = inverseRoot(squared) * apart;
     const Real half = Real(0.5) * at.overlap;
     at.arm = radius - half;
     at.partnerArm = partnerRadius - half;
-    at.rollingRadius2 = radius * partnerRadius;
-    at.effectiveRadius = at.rollingRadius2 / radii;
+    const Real product = radius * partnerRadius;
+    const Real inverse = Real(1) / (radii * product);  // one quotient for both
+    at.effectiveRadius = product * product * inverse;
+    at.radiusRatio = radii * radii * radii * inverse;
     return at;
 }
 
 /// Springs are turned into the present tangent plane by projection; over a turn by an angle a in
 /// steps of a/n this shortens them by a factor cos(a/n)^n, which is 1 - a^2/2n: nothing at n of
 /// hundreds.
-template <NormalLaw law, bool rolls, class Real>
+template <NormalLaw law, RollingLaw rolling, class Real>
 inline ContactForce<Real> evaluateContact(const LawNumbers<Real>& numbers,
                                           const ContactGeometry<Real>& at,
                                           const ContactSide<Real>& grain,
@@ -74,7 +78,8 @@ inline ContactForce<Real> evaluateContact(const LawNumbers<Real>& numbers,
     // Velocity of the grain's surface against the partner's: v - arm (omega x n) on either side.
     const Vec<Real> slip = velocity - opening * n - cross(spin, n);
 
-    const Real effectiveMass = Real(1) / (grain.inverseMass + partner.inverseMass);
+    const Real rootMass = inverseRoot(grain.inverseMass + partner.inverseMass);
+    const Real effectiveMass = rootMass * rootMass;
     const NormalForce<Real> fn = evaluateNormal<law>(numbers, at.overlap, -opening, effectiveMass,
                                                      at.effectiveRadius);
     const Tangential<Real> ft =
@@ -87,14 +92,14 @@ inline ContactForce<Real> evaluateContact(const LawNumbers<Real>& numbers,
     out.normal = fn.force;
     // -arm n x Ft on either side: the partner's arm and its force both point the other way.
     const Vec<Real> twist = cross(n, ft.force);
-    if constexpr (rolls) {
+    if constexpr (rolling != RollingLaw::none) {
         const Vec<Real> turning = at.effectiveRadius * projectOff(grain.spin - partner.spin, n);
         // 1/Ir = sum of 1/(7/5 m R^2), with R_i R_j for either R^2: exact for equal sizes, and the
         // same number seen from both sides.
-        const Real inertia = Real(1.4) * effectiveMass * at.rollingRadius2;
+        const Real rollingMass = Real(1.4) * effectiveMass * at.radiusRatio;
         const Rolling<Real> roll =
-            evaluateRolling(numbers, projectOff(springs.rolling, n), turning, fn.force,
-                            fn.tangentStiffness, at.effectiveRadius, inertia, dt);
+            evaluateRolling<rolling>(numbers, projectOff(springs.rolling, n), turning, fn.force,
+                                     fn.tangentStiffness, at.effectiveRadius, rollingMass, dt);
         springs.rolling = roll.spring;
         out.torque = roll.torque - at.arm * twist;
         out.partnerTorque = -roll.torque - at.partnerArm * twist;

@@ -29,7 +29,7 @@ namespace sandflow {
 /// The same bits for any width: what lanes compute is one pair's alone, and sums are added up pair
 /// by pair in list order. Everything is a template over Lanes, which is another type for every
 /// instruction set: code compiled for a newer processor cannot be linked into the path of an older.
-template <class Lanes, NormalLaw law, bool rolls>
+template <class Lanes, NormalLaw law, RollingLaw rolling>
 class ContactPass {
     using Number = typename Lanes::Number;
     using Real = typename Lanes::Real;
@@ -222,21 +222,21 @@ private:
         Real v[4];
         Lanes::gatherRows(springRow, 0, v);
         springs.tangential = {v[0], v[1], v[2]};
-        if constexpr (rolls) {
+        if constexpr (rolling != RollingLaw::none) {
             springs.rolling.x = v[3];
             Lanes::gatherRows(springRow, kTailRow, v);
             springs.rolling.y = v[2], springs.rolling.z = v[3];
         }
 
         const ContactGeometry<Real> at = measureContact(apart, a.radius, b.radius);
-        const ContactForce<Real> f = evaluateContact<law, rolls>(numbers_, at, a, b, dt_, springs);
+        const ContactForce<Real> f = evaluateContact<law, rolling>(numbers_, at, a, b, dt_, springs);
         using std::max;
         deepest_ = max(deepest_, at.overlap);
 
         const Vec<Real>& s = springs.tangential;
         const Vec<Real>& q = springs.rolling;
         Lanes::scatterRows({s.x, s.y, s.z, q.x}, springRow, 0);
-        if constexpr (rolls) {
+        if constexpr (rolling != RollingLaw::none) {
             Lanes::scatterRows({s.z, q.x, q.y, q.z}, springRow, kTailRow);
         }
 
@@ -248,7 +248,7 @@ private:
             Lanes::storeRows({f.partnerTorque.x, f.partnerTorque.y, f.partnerTorque.z, pushes},
                              partnerTorque);
         }
-        for (std::uint32_t l = 0; l < count; ++l) {
+        const auto add = [&](std::uint32_t l) {
             const std::uint32_t row = Lanes::storedRow(l);
             ContactSum<Number>& sum = work_.sums[grain[l] - work_.grains];
             Lanes::addRow(&sum.fx, force + row);
@@ -259,6 +259,16 @@ private:
                 ContactSum<Number>& other = work_.sums[partner[l] - work_.grains];
                 Lanes::addRowTurned(&other.fx, force + row);
                 Lanes::addRow(&other.tx, partnerTorque + row);
+            }
+        };
+        if (count == kWidth) [[likely]] {
+#pragma GCC unroll 16
+            for (std::uint32_t l = 0; l < kWidth; ++l) {
+                add(l);
+            }
+        } else {
+            for (std::uint32_t l = 0; l < count; ++l) {
+                add(l);
             }
         }
     }

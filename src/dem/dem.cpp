@@ -108,7 +108,10 @@ double Dem<Real>::chooseHorizon(double dt) const
 {
     constexpr double kFewestSteps = 16;
     Real fastest = 0;
-    for (const GrainRecord<Real>& g : mobile_.record) {
+    const auto n = static_cast<std::int64_t>(mobile_.size());
+#pragma omp parallel for schedule(static) reduction(max : fastest)
+    for (std::int64_t k = 0; k < n; ++k) {
+        const GrainRecord<Real>& g = mobile_.record[k];
         fastest = std::max(fastest, g.vx * g.vx + g.vy * g.vy + g.vz * g.vz);
     }
     const double speed = std::sqrt(static_cast<double>(fastest));
@@ -219,8 +222,10 @@ void Dem<Real>::followStrays()
             if (lists_.isInBall(static_cast<std::uint32_t>(k), mobile_.record[k])) {
                 continue;
             }
-            const auto [centre, reach] = lists_.ballAhead(mobile_.record[k]);
-            if (lists_.strayCount() >= most || !isCovered(centre, reach + setup_.meanRadius)) {
+            const SearchBall ball = lists_.ballAhead(mobile_.record[k]);
+            if (lists_.strayCount() >= most ||
+                !isCovered(Vec3(ball.x, ball.y, ball.z),
+                           static_cast<double>(ball.reach) + setup_.meanRadius)) {
                 listsHold_ = false;
                 return;
             }
@@ -267,8 +272,9 @@ std::uint64_t Dem<Real>::listedPairs() const
 template <class Real>
 std::size_t Dem<Real>::bytes() const
 {
-    return 2 * mobile_.record.capacity() * sizeof(GrainRecord<Real>) +
-           mobile_.memory.capacity() * sizeof(GrainMemory) + lists_.bytes() +
+    return (mobile_.record.capacity() + mobile_.next.capacity()) * sizeof(GrainRecord<Real>) +
+           mobile_.memory.capacity() * sizeof(GrainMemory) +
+           mobile_.load.capacity() * sizeof(GrainLoad) + lists_.bytes() + book_.bytes() +
            (frozen_.size() + boundary_.size()) * sizeof(GrainRecord<Real>);
 }
 

@@ -2,24 +2,26 @@
 
 #include "dem/contact_pass.h"
 #include "dem/motion_pass.h"
+#include "dem/near_pass.h"
+
+#include <type_traits>
 
 namespace sandflow {
 
-/// The passes for a law, compiled without what the law does not have.
+/// The passes for a law, compiled without what the law does not have. Lanes of double have no
+/// findNear.
 template <class Lanes>
-ChunkPasses<typename Lanes::Number> findPasses(NormalLaw law, bool rolls)
+ChunkPasses<typename Lanes::Number> findPasses(NormalLaw law, RollingLaw rolling)
 {
-    const auto choose = [&]<NormalLaw known>() -> ChunkPasses<typename Lanes::Number> {
-        return {rolls ? &ContactPass<Lanes, known, true>::run
-                      : &ContactPass<Lanes, known, false>::run,
-                &MotionPass<Lanes>::run};
-    };
-    switch (law) {
-    case NormalLaw::linear: return choose.template operator()<NormalLaw::linear>();
-    case NormalLaw::hertz: return choose.template operator()<NormalLaw::hertz>();
-    case NormalLaw::bellYuMucha: break;
+    using Number = typename Lanes::Number;
+    FindNear findNear = nullptr;
+    if constexpr (std::is_same_v<Number, float>) {
+        findNear = &NearPass<Lanes>::run;
     }
-    return choose.template operator()<NormalLaw::bellYuMucha>();
+    return chooseLaw(law, rolling, [&]<NormalLaw knownLaw, RollingLaw knownRolling>() {
+        return ChunkPasses<Number>{&ContactPass<Lanes, knownLaw, knownRolling>::run,
+                                   &MotionPass<Lanes>::run, findNear};
+    });
 }
 
 }  // namespace sandflow

@@ -1,9 +1,7 @@
 #include "dem/force_kernel.h"
 
-#include "core/errors.h"
-#include "dem/find_passes.h"
-#include "dem/scalar_lanes.h"
-#include "dem/simd_passes.h"
+#include "dem/choose_passes.h"
+#include "dem/contact_pair.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +24,7 @@ using WallPass = float (*)(const LawNumbers<Real>& numbers, const StepInput<Real
 
 /// Adds the forces of analytic walls. Returns the deepest overlap [m]. Few grains touch one, so
 /// this is the same code for every target.
-template <class Real, NormalLaw law, bool rolls>
+template <class Real, NormalLaw law, RollingLaw rolling>
 float sumWallContacts(const LawNumbers<Real>& numbers, const StepInput<Real>& input,
                       const GrainRecord<Real>* grains, ChunkContacts<Real>& contacts,
                       ContactSum<Real>* sums)
@@ -51,7 +49,7 @@ float sumWallContacts(const LawNumbers<Real>& numbers, const StepInput<Real>& in
         at.partnerArm = 0;
         // A flat wall is a partner of infinite radius and mass: R* = R, m* = m.
         at.effectiveRadius = g.radius;
-        at.rollingRadius2 = g.radius * g.radius;
+        at.radiusRatio = 1;
         const ContactSide<Real> side = {
             g.radius, g.inverseMass, {g.vx, g.vy, g.vz}, {g.wx, g.wy, g.wz}};
 
@@ -60,7 +58,7 @@ float sumWallContacts(const LawNumbers<Real>& numbers, const StepInput<Real>& in
         if (wall.grain & partner::kLive) {
             springs = {{h.sx, h.sy, h.sz}, {h.qx, h.qy, h.qz}};
         }
-        const ContactForce<Real> f = evaluateContact<law, rolls>(
+        const ContactForce<Real> f = evaluateContact<law, rolling>(
             numbers, at, side, ContactSide<Real>{}, static_cast<Real>(input.dt), springs);
         h = {springs.tangential.x, springs.tangential.y, springs.tangential.z,
              springs.rolling.x,    springs.rolling.y,    springs.rolling.z};
@@ -77,22 +75,13 @@ float sumWallContacts(const LawNumbers<Real>& numbers, const StepInput<Real>& in
 }
 
 template <class Real>
-WallPass<Real> findWallPass(NormalLaw law, bool rolls)
+WallPass<Real> findWallPass(NormalLaw law, RollingLaw rolling)
 {
-    switch (law) {
-    case NormalLaw::linear:
-        return rolls ? &sumWallContacts<Real, NormalLaw::linear, true>
-                     : &sumWallContacts<Real, NormalLaw::linear, false>;
-    case NormalLaw::hertz:
-        return rolls ? &sumWallContacts<Real, NormalLaw::hertz, true>
-                     : &sumWallContacts<Real, NormalLaw::hertz, false>;
-    case NormalLaw::bellYuMucha: break;
-    }
-    return rolls ? &sumWallContacts<Real, NormalLaw::bellYuMucha, true>
-                 : &sumWallContacts<Real, NormalLaw::bellYuMucha, false>;
+    return chooseLaw(law, rolling, []<NormalLaw knownLaw, RollingLaw knownRolling>() {
+        return &sumWallContacts<Real, knownLaw, knownRolling>;
+    });
 }
 
-/// What one observed step says of the grains, from their sums.
 template <class Real>
 void observeLoads(const GrainRecord<Real>* grains, const ContactSum<Real>* sums,
                   std::uint32_t count, const Vec3& gravity, GrainLoad* load)
@@ -116,7 +105,7 @@ public:
           numbers_(law),
           observe_(observe),
           passes_(passes),
-          wallPass_(findWallPass<Real>(law.law, law.rollingFriction > 0.0))
+          wallPass_(findWallPass<Real>(law.law, law.rollingLaw()))
     {
     }
 
@@ -197,26 +186,6 @@ private:
     WallPass<Real> wallPass_;
 };
 
-ChunkPasses<float> findFloatPasses(KernelTarget target, NormalLaw law, bool rolls)
-{
-    const std::vector<KernelTarget> available = availableKernelTargets();
-    if (target == KernelTarget::best) {
-        target = available.back();
-    }
-    if (std::find(available.begin(), available.end(), target) == available.end()) {
-        throw InputError(fmt::format("this processor or build has no {} kernel (best: {})",
-                                     nameOf(target), kernelTargetName()));
-    }
-    switch (target) {
-    case KernelTarget::sse4: return sse4Passes()(law, rolls);
-    case KernelTarget::avx2: return avx2Passes()(law, rolls);
-    case KernelTarget::avx512: return avx512Passes()(law, rolls);
-    case KernelTarget::scalar:
-    case KernelTarget::best: break;
-    }
-    return findPasses<ScalarLanes<float>>(law, rolls);
-}
-
 }  // namespace
 
 template <>
@@ -224,7 +193,7 @@ std::unique_ptr<ForceKernel<float>> makeForceKernel<float>(const ContactCoeffici
                                                            bool observe, KernelTarget target)
 {
     return std::make_unique<ChunkKernel<float>>(
-        law, observe, findFloatPasses(target, law.law, law.rollingFriction > 0.0));
+        law, observe, choosePasses<float>(target, law.law, law.rollingLaw()));
 }
 
 template <>
@@ -233,7 +202,7 @@ std::unique_ptr<ForceKernel<double>> makeForceKernel<double>(const ContactCoeffi
 {
     return std::make_unique<ChunkKernel<double>>(
         law, observe,
-        findPasses<ScalarLanes<double>>(law.law, law.rollingFriction > 0.0));
+        choosePasses<double>(KernelTarget::scalar, law.law, law.rollingLaw()));
 }
 
 }  // namespace sandflow

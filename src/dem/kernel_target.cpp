@@ -1,10 +1,17 @@
 #include "dem/kernel_target.h"
 
+#include "core/errors.h"
 #include "dem/simd_passes.h"
 
+#include <algorithm>
 #include <hwy/targets.h>
 
 namespace sandflow {
+namespace {
+
+KernelTarget preferred = KernelTarget::best;
+
+}  // namespace
 
 std::vector<KernelTarget> availableKernelTargets()
 {
@@ -20,6 +27,22 @@ std::vector<KernelTarget> availableKernelTargets()
     return targets;
 }
 
+KernelTarget bestKernelTarget()
+{
+    return preferred == KernelTarget::best ? availableKernelTargets().back() : preferred;
+}
+
+void preferKernelTarget(KernelTarget target)
+{
+    const std::vector<KernelTarget> available = availableKernelTargets();
+    if (target != KernelTarget::best &&
+        std::find(available.begin(), available.end(), target) == available.end()) {
+        throw InputError(fmt::format("this processor or build has no {} kernel (best: {})",
+                                     nameOf(target), nameOf(available.back())));
+    }
+    preferred = target;
+}
+
 const char* nameOf(KernelTarget target)
 {
     switch (target) {
@@ -29,7 +52,7 @@ const char* nameOf(KernelTarget target)
     case KernelTarget::avx512: return "avx512";
     case KernelTarget::best: break;
     }
-    return nameOf(availableKernelTargets().back());
+    return nameOf(bestKernelTarget());
 }
 
 }  // namespace sandflow

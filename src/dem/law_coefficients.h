@@ -4,6 +4,9 @@
 
 namespace sandflow {
 
+/// How much of rolling resistance a law has; what it has not is not compiled into its kernel.
+enum class RollingLaw { none, spring, springAndDashpot };
+
 /// The numbers of the contact law, as the kernel uses them. delta is the overlap [m], R* and m* the
 /// pair-effective radius and mass (fixed partner: m* = m). S is the tangent normal stiffness.
 ///
@@ -25,6 +28,33 @@ struct ContactCoefficients {
     double rollingFriction = 0.0;    ///< mu_r
     double rollingStiffness = 0.0;   ///< kr / (S R*^2); EPSD: 2.25 mu_r^2
     double rollingDamping = 0.0;     ///< eta_r: Cr = eta_r 2 sqrt(Ir kr), off at full mobilisation
+
+    RollingLaw rollingLaw() const
+    {
+        return rollingFriction <= 0.0  ? RollingLaw::none
+               : rollingDamping <= 0.0 ? RollingLaw::spring
+                                       : RollingLaw::springAndDashpot;
+    }
 };
+
+/// Calls make<law, rolling>() with both as constants.
+template <class Make>
+auto chooseLaw(NormalLaw law, RollingLaw rolling, Make make)
+{
+    const auto chooseRolling = [&]<NormalLaw known>() {
+        switch (rolling) {
+        case RollingLaw::none: return make.template operator()<known, RollingLaw::none>();
+        case RollingLaw::spring: return make.template operator()<known, RollingLaw::spring>();
+        case RollingLaw::springAndDashpot: break;
+        }
+        return make.template operator()<known, RollingLaw::springAndDashpot>();
+    };
+    switch (law) {
+    case NormalLaw::linear: return chooseRolling.template operator()<NormalLaw::linear>();
+    case NormalLaw::hertz: return chooseRolling.template operator()<NormalLaw::hertz>();
+    case NormalLaw::bellYuMucha: break;
+    }
+    return chooseRolling.template operator()<NormalLaw::bellYuMucha>();
+}
 
 }  // namespace sandflow

@@ -3,6 +3,7 @@
 
 #include "core/small_vec.h"
 #include "dem/chunk_pass.h"
+#include "dem/lane_math.h"
 
 #include <hwy/highway.h>
 
@@ -53,6 +54,15 @@ struct LaneFloat {
     friend HWY_INLINE LaneMask operator>=(LaneFloat a, LaneFloat b) { return {hn::Ge(a.v, b.v)}; }
     friend HWY_INLINE LaneMask operator!=(LaneFloat a, LaneFloat b) { return {hn::Ne(a.v, b.v)}; }
     friend HWY_INLINE LaneFloat sqrt(LaneFloat a) { return hn::Sqrt(a.v); }
+    friend HWY_INLINE LaneFloat inverseRoot(LaneFloat x)
+    {
+        const hn::RebindToUnsigned<Lanes32> d;
+        const auto half = hn::ShiftRight<1>(hn::BitCast(d, x.v));
+        const LaneFloat estimate =
+            hn::BitCast(Lanes32(), hn::Sub(hn::Set(d, root_estimate::kBits), half));
+        return root_estimate::refine(estimate, x);
+    }
+    friend HWY_INLINE LaneFloat root(LaneFloat x) { return x * inverseRoot(x); }
     friend HWY_INLINE LaneFloat select(LaneMask c, LaneFloat yes, LaneFloat no)
     {
         return hn::IfThenElse(c.m, yes.v, no.v);

@@ -5,7 +5,7 @@
 namespace sandflow {
 
 /// The passes for a law, of one instruction set.
-using FindPasses = ChunkPasses<float> (*)(NormalLaw law, bool rolls);
+using FindPasses = ChunkPasses<float> (*)(NormalLaw law, RollingLaw rolling);
 
 /// Null where the compiler was not given the flags that the set needs (CMakeLists.txt).
 FindPasses sse4Passes();

@@ -45,21 +45,25 @@ public:
         if (sorted_) {
             return;
         }
-        points_.resize(record_.size());
-        for (std::size_t k = 0; k < record_.size(); ++k) {
-            points_[k] = Vec3(record_[k].x, record_[k].y, record_[k].z);
-        }
-        cells_.build(points_);
+        cells_.build(record_.size(), [&](std::size_t k) {
+            return Vec3(record_[k].x, record_[k].y, record_[k].z);
+        });
         recordScratch_.resize(record_.size());
         infoScratch_.resize(record_.size());
-        for (std::size_t k = 0; k < record_.size(); ++k) {
+        const auto n = static_cast<std::int64_t>(record_.size());
+#pragma omp parallel for schedule(static) if (n > 4096)
+        for (std::int64_t k = 0; k < n; ++k) {
             recordScratch_[k] = record_[cells_.order()[k]];
             infoScratch_[k] = info_[cells_.order()[k]];
         }
         record_.swap(recordScratch_);
         info_.swap(infoScratch_);
         sorted_ = true;
+        ++version_;
     }
+
+    /// Another number whenever sort() changed anything.
+    std::uint64_t version() const { return version_; }
 
     std::size_t size() const { return record_.size(); }
     const std::vector<GrainRecord<Real>>& records() const { return record_; }
@@ -72,9 +76,9 @@ public:
 private:
     std::vector<GrainRecord<Real>> record_, recordScratch_;
     std::vector<Info> info_, infoScratch_;
-    std::vector<Vec3> points_;
     SortedCells cells_;
     bool sorted_ = true;
+    std::uint64_t version_ = 0;
 };
 
 }  // namespace sandflow

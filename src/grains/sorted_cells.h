@@ -28,11 +28,46 @@ public:
     explicit SortedCells(double cellSize = 1.0) : cellSize_(cellSize), inverse_(1.0 / cellSize) {}
 
     /// Sorts anew. Throws InternalError for a point that is not finite.
-    void build(std::span<const Vec3> points);
+    void build(std::span<const Vec3> points)
+    {
+        build(points.size(), [&](std::size_t k) { return points[k]; });
+    }
+
+    /// The same for the points pointOf(k), k < count.
+    template <class PointOf>
+    void build(std::size_t count, PointOf pointOf)
+    {
+        entries_.resize(count);
+        // An exception must not leave the parallel loop.
+        const auto n = static_cast<std::int64_t>(count);
+        std::int64_t lost = n;
+#pragma omp parallel for schedule(static) reduction(min : lost) if (count > kFewPoints)
+        for (std::int64_t k = 0; k < n; ++k) {
+            const Vec3 p = pointOf(static_cast<std::size_t>(k));
+            if (p.allFinite() && p.cwiseAbs().maxCoeff() * inverse_ < kCellIndexLimit - 1) {
+                entries_[k] = {curveKey(cellOf(p)), static_cast<std::uint32_t>(k)};
+            } else {
+                lost = std::min(lost, k);
+            }
+        }
+        if (lost < n) {
+            const Vec3 p = pointOf(static_cast<std::size_t>(lost));
+            SAND_CHECK(lost == n, "point ({}, {}, {}) m cannot be placed in the grid", p.x(), p.y(),
+                       p.z());
+        }
+        sortEntries();
+    }
 
     double cellSize() const { return cellSize_; }
     std::span<const std::uint32_t> order() const { return order_; }  ///< input index of each entry
     std::span<const Cell> cells() const { return cells_; }
+
+    std::size_t bytes() const
+    {
+        return (entries_.capacity() + scratch_.capacity()) * sizeof(Entry) +
+               order_.capacity() * sizeof(std::uint32_t) + cells_.capacity() * sizeof(Cell) +
+               (rows_.capacity() + rowCells_.capacity()) * sizeof(Row);
+    }
 
     CellIndex cellOf(const Vec3& point) const
     {
@@ -70,6 +105,15 @@ private:
     struct Row {
         std::uint32_t begin, end;  ///< in rowCells_
     };
+    struct RowCell {
+        std::int32_t i;
+        std::uint32_t cell;
+    };
+    /// Fewer points are sorted by one thread: waking the others would take longer.
+    static constexpr std::size_t kFewPoints = 4096;
+
+    static std::uint64_t curveKey(const CellIndex& cell);
+    void sortEntries();
     void sortByKey();
     void buildRows();
 
@@ -81,24 +125,27 @@ private:
         if (!slot) {
             return;
         }
-        const auto begin = rowCells_.begin() + rows_[*slot].begin;
-        const auto end = rowCells_.begin() + rows_[*slot].end;
-        auto at = std::lower_bound(begin, end, first, [&](std::uint32_t cell, std::int32_t i) {
-            return cells_[cell].index.i < i;
-        });
-        for (; at != end && cells_[*at].index.i <= last; ++at) {
-            visit(cells_[*at]);
+        const RowCell* const begin = rowCells_.data() + rows_[*slot].begin;
+        const RowCell* const end = rowCells_.data() + rows_[*slot].end;
+        // Most rows have no gaps: then the place follows from the index.
+        const RowCell* at = begin + std::clamp<std::ptrdiff_t>(first - begin->i, 0, end - begin);
+        if (at > begin && at[-1].i >= first) {
+            at = std::lower_bound(begin, at, first,
+                                  [](const RowCell& cell, std::int32_t i) { return cell.i < i; });
+        }
+        for (; at != end && at->i <= last; ++at) {
+            visit(cells_[at->cell]);
         }
     }
 
     double cellSize_, inverse_;
     std::vector<Entry> entries_, scratch_;
-    std::vector<CellIndex> indexOf_;
+    std::vector<std::uint32_t> digitCount_;
     std::vector<std::uint32_t> order_;
     std::vector<Cell> cells_;
     CellMap rowOf_;                        ///< packed (0, j, k) -> rows_
     std::vector<Row> rows_;
-    std::vector<std::uint32_t> rowCells_;  ///< cells of each row, ascending in i
+    std::vector<RowCell> rowCells_;        ///< of each row, ascending in i
     std::vector<std::uint32_t> rowOfCell_;
     CellIndex low_, high_;                 ///< of the cells there are
 };

@@ -91,6 +91,22 @@ TEST_F(TinyRun, ResolvedSceneAndOtherThreadCountGiveTheSameBits)
               JsonScalars(read("out/summary.json")).text("state_hash"));
 }
 
+TEST_F(TinyRun, ScalarKernelGivesTheSameBits)
+{
+    const ProgramResult scalar = call("run tiny.toml --out scalar --simd scalar --no-frames");
+    ASSERT_EQ(scalar.exitCode, 0) << scalar.errors;
+    const JsonScalars summary(read("scalar/summary.json"));
+    EXPECT_EQ(summary.text("simd_target"), "scalar");
+    EXPECT_EQ(summary.text("state_hash"),
+              JsonScalars(read("out/summary.json")).text("state_hash"));
+
+    const ProgramResult refused = call("run tiny.toml --out refused --simd mmx");
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_NE(refused.errors.find("--simd mmx: expected auto, scalar"), std::string::npos)
+        << refused.errors;
+    EXPECT_FALSE(exists("refused"));
+}
+
 TEST_F(TinyRun, ExportHoldsEveryGrain)
 {
     const ProgramResult csv = call("export out --frame last --format csv");

@@ -109,7 +109,8 @@ inline void touch(const ContactCoefficients& law, double dt, const Real3& n, dou
                            normal.tangentStiffness, normal.dashpot, dt);
     const Rolling<double> rolling =
         evaluateRolling(numbers, turnInto(contact.rollingSpring, n), rollingVelocity,
-                        normal.force, normal.tangentStiffness, radius, inertia, dt);
+                        normal.force, normal.tangentStiffness, radius,
+                        inertia / (radius * radius), dt);
 
     contact.tangentialSpring = tangential.spring;
     contact.rollingSpring = rolling.spring;

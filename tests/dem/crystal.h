@@ -183,7 +183,7 @@ public:
                                    normal.tangentStiffness, normal.dashpot, dt);
             const auto rolling = evaluateRolling(
                 numbers_, c.rollingSpring, 0.25 * projectOff(spin_[i] - spin_[j], c.n),
-                normal.force, normal.tangentStiffness, 0.25, 0.175, dt);
+                normal.force, normal.tangentStiffness, 0.25, 0.175 / (0.25 * 0.25), dt);
             c.spring = tangential.spring;
             c.rollingSpring = rolling.spring;
             const Real3 push = tangential.force - normal.force * c.n;

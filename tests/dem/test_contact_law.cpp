@@ -186,7 +186,8 @@ TEST(RollingTorque, SpringAndDashpotBelowTheCap)
     const double angle = 1e-3;
     const double rate = 0.2;
     const auto result = evaluateRolling(numbers, {0.0, radius * angle, 0.0},
-                                        {0.0, radius * rate, 0.0}, 1.0, 3e3, radius, inertia, 0.0);
+                                        {0.0, radius * rate, 0.0}, 1.0, 3e3, radius,
+                                        inertia / (radius * radius), 0.0);
     // M = -kr theta - Cr omega with kr = 2.25 mu_r^2 S R*^2 and Cr = 2 eta_r sqrt(Ir kr)
     const double kr = 2.25 * 0.01 * 3e3 * radius * radius;
     const double cr = 2.0 * 0.3 * std::sqrt(inertia * kr);
@@ -202,8 +203,8 @@ TEST(RollingTorque, IsPlasticAtFullMobilisationWithTheDashpotOff)
     const double force = 0.02;
     for (const double rate : {0.1, 10.0, 1000.0}) {
         const auto result = evaluateRolling(numbers, {radius * 0.5, 0.0, 0.0},
-                                            {radius * rate, 0.0, 0.0}, force, 3e3, radius, 1.2e-8,
-                                            1e-5);
+                                            {radius * rate, 0.0, 0.0}, force, 3e3, radius,
+                                            1.2e-8 / (radius * radius), 1e-5);
         EXPECT_NEAR(result.torque.x, -0.1 * radius * force, 1e-18);
         // The kept spring carries just the cap: s = mu_r Fn / (kr / R*^2).
         EXPECT_NEAR(result.spring.x, 0.1 * force / (2.25 * 0.01 * 3e3), 1e-18);
@@ -215,7 +216,7 @@ TEST(RollingTorque, NeverExceedsTheCapWhileTheSpringIsShort)
     const LawNumbers<double> numbers(exampleLaw(NormalLaw::linear));
     const double radius = 2.5e-3;
     const auto result = evaluateRolling(numbers, Vec<double>{}, {radius * 300.0, 0.0, 0.0}, 0.02,
-                                        3e3, radius, 1.2e-8, 1e-9);
+                                        3e3, radius, 1.2e-8 / (radius * radius), 1e-9);
     EXPECT_NEAR(result.torque.x, -0.1 * radius * 0.02, 1e-18);
     EXPECT_NEAR(result.spring.x, radius * 300.0 * 1e-9, 1e-18);
 }
@@ -225,9 +226,28 @@ TEST(RollingTorque, IsZeroWithoutRollingFriction)
     ContactCoefficients law = exampleLaw(NormalLaw::linear);
     law.rollingFriction = law.rollingStiffness = law.rollingDamping = 0.0;
     const auto result = evaluateRolling(LawNumbers<double>(law), Vec<double>{}, {1.0, 2.0, 3.0},
-                                        1.0, 3e3, 2.5e-3, 1.2e-8, 1e-5);
+                                        1.0, 3e3, 2.5e-3, 1.9e-3, 1e-5);
     EXPECT_EQ(length(result.torque), 0.0);
-    EXPECT_EQ(length(result.spring), 0.0);
+    EXPECT_EQ(law.rollingLaw(), RollingLaw::none) << "and no kernel has it";
+    law.rollingFriction = 0.1;
+    EXPECT_EQ(law.rollingLaw(), RollingLaw::spring);
+    law.rollingDamping = 0.3;
+    EXPECT_EQ(law.rollingLaw(), RollingLaw::springAndDashpot);
+}
+
+TEST(InverseRoot, IsAccurateToAFewUnitsOverAllMagnitudes)
+{
+    double worst = 0.0;
+    for (float x = 1e-30f; x < 1e30f; x *= 1.0371f) {
+        const double exact = 1.0 / std::sqrt(static_cast<double>(x));
+        worst = std::max(worst, std::abs(static_cast<double>(inverseRoot(x)) / exact - 1.0));
+        EXPECT_NEAR(static_cast<double>(root(x)) * exact, 1.0, 4e-7);
+    }
+    EXPECT_LT(worst, 4e-7);
+    EXPECT_GT(worst, 0.0) << "floats cannot be exact throughout";
+    EXPECT_EQ(root(0.0f), 0.0f);
+    EXPECT_TRUE(std::isfinite(inverseRoot(0.0f)));
+    EXPECT_TRUE(std::isnan(root(std::numeric_limits<float>::quiet_NaN())));
 }
 
 TEST(ContactLaw, SinglePrecisionAgreesWithDouble)

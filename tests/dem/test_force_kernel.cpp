@@ -59,7 +59,7 @@ struct TwoBalls {
             const auto rolling = evaluateRolling(
                 numbers, plain(roll), plain(reducedRadius * turning), normal.force,
                 normal.tangentStiffness, reducedRadius,
-                1.4 * reducedMass * radius[0] * radius[1], dt);
+                1.4 * reducedMass * radius[0] * radius[1] / (reducedRadius * reducedRadius), dt);
             roll = eigen(rolling.spring);
             force = normal.force * n + eigen(tangential.force);
             torque[0] = (-arm[0] * n).cross(force) + eigen(rolling.torque);

@@ -47,14 +47,15 @@ std::map<CellTuple, std::vector<std::uint32_t>> sortBruteForce(const std::vector
     return cells;
 }
 
-/// Bits of the three indices, counted from the lowest that a key can hold, interleaved one by one.
+/// Bits of the three indices, counted from -0x155555 and wrapped at the range of a key, interleaved
+/// one by one.
 std::uint64_t mortonByBits(const CellIndex& cell)
 {
     const std::int64_t index[] = {cell.i, cell.j, cell.k};
     std::uint64_t key = 0;
     for (int bit = 0; bit < kCellIndexBits; ++bit) {
         for (int axis = 0; axis < 3; ++axis) {
-            const auto u = static_cast<std::uint64_t>(index[axis] + kCellIndexLimit);
+            const auto u = static_cast<std::uint64_t>(index[axis] + 0x155555);
             key |= ((u >> bit) & 1u) << (3 * bit + axis);
         }
     }
