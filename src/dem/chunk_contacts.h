@@ -16,35 +16,64 @@ inline constexpr std::uint32_t kChunkSize = 1024;
 enum class PartnerSource : std::uint32_t { mobile = 0, frozen = 1, boundary = 2 };
 inline constexpr std::uint32_t kPartnerSources = 3;
 
-/// A partner packed into 32 bits: | live:1 | source:2 | index:29 |. `live` says that the springs of
-/// the pair hold something; pairs that do not touch are never written to.
+/// A partner packed into 32 bits: | source:2 | index:30 |.
 namespace partner {
-inline constexpr std::uint32_t kLive = 0x80000000u;
-inline constexpr std::uint32_t kSourceShift = 29;
+inline constexpr std::uint32_t kSourceShift = 30;
 inline constexpr std::uint32_t kIndexMask = (1u << kSourceShift) - 1;
 
 constexpr std::uint32_t pack(PartnerSource source, std::uint32_t index)
 {
     return static_cast<std::uint32_t>(source) << kSourceShift | index;
 }
-constexpr std::uint32_t sourceOf(std::uint32_t p) { return p >> kSourceShift & 3u; }
+constexpr std::uint32_t sourceOf(std::uint32_t p) { return p >> kSourceShift; }
 constexpr std::uint32_t indexOf(std::uint32_t p) { return p & kIndexMask; }
 }  // namespace partner
 
-/// A pair within a chunk packed into 32 bits: | live:1 | .. | lower slot:10 | higher slot:10 |.
-namespace own_pair {
-inline constexpr std::uint32_t kLive = partner::kLive;
-inline constexpr std::uint32_t kSlotBits = 10;
-inline constexpr std::uint32_t kSlotMask = (1u << kSlotBits) - 1;
-static_assert(kChunkSize == 1u << kSlotBits);
+/// A slot of a chunk times 64: where the grain's record lies in the chunk when records are 64 bytes,
+/// so that the kernel finds it without arithmetic.
+namespace slot_offset {
+inline constexpr std::uint32_t kShift = 6;
+static_assert(kChunkSize << kShift == 1u << 16, "an offset takes 16 bits");
 
+constexpr std::uint16_t of(std::uint32_t slot) { return static_cast<std::uint16_t>(slot << kShift); }
+constexpr std::uint32_t slotOf(std::uint32_t offset) { return offset >> kShift; }
+}  // namespace slot_offset
+
+/// A pair within a chunk packed into 32 bits: | offset of the higher slot:16 | of the lower:16 |.
+namespace own_pair {
 constexpr std::uint32_t pack(std::uint32_t lower, std::uint32_t higher)
 {
-    return lower << kSlotBits | higher;
+    return static_cast<std::uint32_t>(slot_offset::of(higher)) << 16 | slot_offset::of(lower);
 }
-constexpr std::uint32_t lowerOf(std::uint32_t p) { return p >> kSlotBits & kSlotMask; }
-constexpr std::uint32_t higherOf(std::uint32_t p) { return p & kSlotMask; }
+constexpr std::uint32_t lowerOffset(std::uint32_t p) { return p & 0xFFFFu; }
+constexpr std::uint32_t higherOffset(std::uint32_t p) { return p >> 16; }
+constexpr std::uint32_t lowerOf(std::uint32_t p) { return slot_offset::slotOf(lowerOffset(p)); }
+constexpr std::uint32_t higherOf(std::uint32_t p) { return slot_offset::slotOf(higherOffset(p)); }
 }  // namespace own_pair
+
+/// One bit per pair of a list: set if its springs hold something. Springs of pairs that do not touch
+/// are never written to.
+class LiveBits {
+public:
+    static constexpr std::size_t kBits = 32;
+
+    void clear() { words_.clear(), count_ = 0; }
+    void push_back(bool live)
+    {
+        if (count_ % kBits == 0) {
+            words_.push_back(0);
+        }
+        words_.back() |= static_cast<std::uint32_t>(live) << count_++ % kBits;
+    }
+    bool operator[](std::size_t pair) const { return words_[pair / kBits] >> pair % kBits & 1u; }
+    std::uint32_t* data() { return words_.data(); }
+    std::size_t size() const { return count_; }
+    std::size_t bytes() const { return sizeof(std::uint32_t) * words_.capacity(); }
+
+private:
+    std::vector<std::uint32_t> words_;
+    std::size_t count_ = 0;
+};
 
 /// Contacts of the grains of one chunk, in order of the grain's slot. Every pair names its grain,
 /// so that lists are run through without a loop per grain: those are short and end unpredictably.
@@ -60,11 +89,13 @@ struct ChunkContacts {
     std::uint32_t grainCount = 0;
     std::vector<std::uint32_t> own;         ///< see own_pair
     std::vector<std::uint32_t> foreign;     ///< the partner, see partner
-    std::vector<std::uint16_t> foreignSlot; ///< the grain, as slot within the chunk
+    std::vector<std::uint16_t> foreignSlot; ///< the grain, see slot_offset
+    LiveBits ownLive, foreignLive;
     std::vector<PairHistory<Real>> ownHistory, foreignHistory;
 
     struct Wall {
-        std::uint32_t grain;      ///< slot within the chunk | live
+        std::uint16_t grain;      ///< slot within the chunk
+        bool live;
         std::uint32_t primitive;
     };
     std::vector<Wall> walls;
@@ -74,12 +105,30 @@ struct ChunkContacts {
     {
         grainCount = 0;
         own.clear(), foreign.clear(), foreignSlot.clear();
+        ownLive.clear(), foreignLive.clear();
         ownHistory.clear(), foreignHistory.clear(), walls.clear(), wallHistory.clear();
+    }
+
+    void appendOwn(std::uint32_t lower, std::uint32_t higher, bool live,
+                   const PairHistory<Real>& springs)
+    {
+        own.push_back(own_pair::pack(lower, higher));
+        ownLive.push_back(live);
+        ownHistory.push_back(springs);
+    }
+    void appendForeign(std::uint32_t slot, PartnerSource source, std::uint32_t index, bool live,
+                       const PairHistory<Real>& springs)
+    {
+        foreign.push_back(partner::pack(source, index));
+        foreignSlot.push_back(slot_offset::of(slot));
+        foreignLive.push_back(live);
+        foreignHistory.push_back(springs);
     }
 
     std::size_t bytes() const
     {
-        return 4 * (own.capacity() + foreign.capacity()) + 2 * foreignSlot.capacity() +
+        return ownLive.bytes() + foreignLive.bytes() +
+               4 * (own.capacity() + foreign.capacity()) + 2 * foreignSlot.capacity() +
                sizeof(Wall) * walls.capacity() +
                sizeof(PairHistory<Real>) *
                    (ownHistory.capacity() + foreignHistory.capacity() + wallHistory.capacity());

@@ -40,8 +40,9 @@ struct ContactWork {
     const GrainRecord<Real>* grains;                    ///< of the chunk
     const GrainRecord<Real>* source[kPartnerSources];   ///< by PartnerSource
     std::uint32_t ownCount, foreignCount;
-    std::uint32_t *own, *foreign;
+    const std::uint32_t *own, *foreign;
     const std::uint16_t* foreignSlot;
+    std::uint32_t *ownLive, *foreignLive;               ///< bit per pair, see LiveBits
     PairHistory<Real> *ownHistory, *foreignHistory;
     TouchingPairs<Real>* touching;
     ContactSum<Real>* sums;     ///< added to

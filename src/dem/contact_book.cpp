@@ -18,7 +18,7 @@ void visitLive(const ChunkContacts<Real>& chunk, const GrainRecord<Real>* grains
                const std::array<const GrainRecord<Real>*, kPartnerSources>& source, Visit visit)
 {
     for (std::size_t p = 0; p < chunk.own.size(); ++p) {
-        if (chunk.own[p] & own_pair::kLive) {
+        if (chunk.ownLive[p]) {
             const std::uint32_t i = own_pair::lowerOf(chunk.own[p]);
             const std::uint32_t j = own_pair::higherOf(chunk.own[p]);
             visit(i, grains[j].id, chunk.ownHistory[p]);
@@ -26,15 +26,16 @@ void visitLive(const ChunkContacts<Real>& chunk, const GrainRecord<Real>* grains
         }
     }
     for (std::size_t q = 0; q < chunk.foreign.size(); ++q) {
-        const std::uint32_t f = chunk.foreign[q];
-        if (f & partner::kLive) {
-            visit(chunk.foreignSlot[q], source[partner::sourceOf(f)][partner::indexOf(f)].id,
+        if (chunk.foreignLive[q]) {
+            const std::uint32_t f = chunk.foreign[q];
+            visit(slot_offset::slotOf(chunk.foreignSlot[q]),
+                  source[partner::sourceOf(f)][partner::indexOf(f)].id,
                   chunk.foreignHistory[q]);
         }
     }
     for (std::size_t w = 0; w < chunk.walls.size(); ++w) {
-        if (chunk.walls[w].grain & partner::kLive) {
-            visit(chunk.walls[w].grain & ~partner::kLive, kFirstWallId + chunk.walls[w].primitive,
+        if (chunk.walls[w].live) {
+            visit(chunk.walls[w].grain, kFirstWallId + chunk.walls[w].primitive,
                   chunk.wallHistory[w]);
         }
     }

@@ -216,7 +216,7 @@ void ContactLists<Real>::searchChunk(std::uint32_t chunk, const MobileGrains<Rea
         }
         const SearchBall& ball = search_[i];
         const std::uint32_t row = mobile.memory[i].row;
-        const auto slot = static_cast<std::uint16_t>(i - first);
+        const std::uint32_t slot = i - first;
         const auto find = [&](const BallColumns& columns, const std::vector<SlotRange>& ranges) {
             NearWork sieve;
             sieve.x = columns.x.data(), sieve.y = columns.y.data(), sieve.z = columns.z.data();
@@ -235,11 +235,6 @@ void ContactLists<Real>::searchChunk(std::uint32_t chunk, const MobileGrains<Rea
             return std::span<const std::uint32_t>(near.found.data(), sieve.foundCount);
         };
         PairHistory<Real> springs;
-        const auto listForeign = [&](PartnerSource source, std::uint32_t j, bool live) {
-            out.foreign.push_back(partner::pack(source, j) | (live ? partner::kLive : 0u));
-            out.foreignSlot.push_back(slot);
-            out.foreignHistory.push_back(springs);
-        };
 
         for (const std::uint32_t j : find(columns_, near.mobile)) {
             const SearchBall& other = search_[j];
@@ -247,11 +242,10 @@ void ContactLists<Real>::searchChunk(std::uint32_t chunk, const MobileGrains<Rea
                 continue;
             }
             const bool live = book.recall(row, ball.id, mobile.memory[j].row, other.id, springs);
-            if (j < first || j >= last) {
-                listForeign(PartnerSource::mobile, j, live);
+            if (j >= first && j < last) {
+                out.appendOwn(slot, j - first, live, springs);
             } else {
-                out.own.push_back(own_pair::pack(slot, j - first) | (live ? own_pair::kLive : 0u));
-                out.ownHistory.push_back(springs);
+                out.appendForeign(slot, PartnerSource::mobile, j, live, springs);
             }
         }
         const auto listFixed = [&](const FixedView& fixed, const std::vector<SlotRange>& ranges,
@@ -262,9 +256,9 @@ void ContactLists<Real>::searchChunk(std::uint32_t chunk, const MobileGrains<Rea
             for (const std::uint32_t j : find(fixed.balls, ranges)) {
                 const SearchBall other = ballOfFixed(fixed.record[j]);
                 if (ball.meets(other)) {
-                    listForeign(source, j,
-                                book.recall(row, ball.id, ContactBook<Real>::kNoRow, other.id,
-                                            springs));
+                    const bool live =
+                        book.recall(row, ball.id, ContactBook<Real>::kNoRow, other.id, springs);
+                    out.appendForeign(slot, source, j, live, springs);
                 }
             }
         };
@@ -303,7 +297,7 @@ void ContactLists<Real>::searchWalls(std::uint32_t chunk, const MobileGrains<Rea
             if (nearestSurface(walls[w], centreOf(i)).distance <
                 static_cast<double>(search_[i].reach)) {
                 const auto* springs = book.find(mobile.memory[i].row, kFirstWallId + w);
-                out.walls.push_back({(i - first) | (springs ? partner::kLive : 0u), w});
+                out.walls.push_back({static_cast<std::uint16_t>(i - first), springs != nullptr, w});
                 out.wallHistory.push_back(springs ? *springs : PairHistory<Real>{});
             }
         }
@@ -353,7 +347,7 @@ void ContactLists<Real>::followStray(std::uint32_t slot, const MobileGrains<Real
             for (std::uint32_t j = cell.begin; j < cell.end; ++j) {
                 const SearchBall other = ballOfFixed(fixed.record[j]);
                 if (ball.meets(other) && !metBefore(other)) {
-                    appendForeign(slot, partner::pack(source, j));
+                    appendForeign(slot, source, j);
                 }
             }
         });
@@ -371,7 +365,7 @@ void ContactLists<Real>::followStray(std::uint32_t slot, const MobileGrains<Real
                    static_cast<double>(b.reach);
         };
         if (reaches(ball) && !reaches(search_[slot]) && !strays_.anyOf(slot, reaches)) {
-            chunk.walls.push_back({slot % kChunkSize, w});
+            chunk.walls.push_back({static_cast<std::uint16_t>(slot % kChunkSize), false, w});
             chunk.wallHistory.push_back({});
         }
     }
@@ -383,23 +377,19 @@ template <class Real>
 void ContactLists<Real>::appendPair(std::uint32_t a, std::uint32_t b)
 {
     if (a / kChunkSize == b / kChunkSize) {
-        ChunkContacts<Real>& chunk = chunks_[a / kChunkSize];
-        chunk.own.push_back(
-            own_pair::pack(std::min(a, b) % kChunkSize, std::max(a, b) % kChunkSize));
-        chunk.ownHistory.push_back({});
+        chunks_[a / kChunkSize].appendOwn(std::min(a, b) % kChunkSize, std::max(a, b) % kChunkSize,
+                                          false, {});
     } else {
-        appendForeign(a, partner::pack(PartnerSource::mobile, b));
-        appendForeign(b, partner::pack(PartnerSource::mobile, a));
+        appendForeign(a, PartnerSource::mobile, b);
+        appendForeign(b, PartnerSource::mobile, a);
     }
 }
 
 template <class Real>
-void ContactLists<Real>::appendForeign(std::uint32_t slot, std::uint32_t packedPartner)
+void ContactLists<Real>::appendForeign(std::uint32_t slot, PartnerSource source,
+                                       std::uint32_t index)
 {
-    ChunkContacts<Real>& chunk = chunks_[slot / kChunkSize];
-    chunk.foreign.push_back(packedPartner);
-    chunk.foreignSlot.push_back(static_cast<std::uint16_t>(slot % kChunkSize));
-    chunk.foreignHistory.push_back({});
+    chunks_[slot / kChunkSize].appendForeign(slot % kChunkSize, source, index, false, {});
 }
 
 template <class Real>

@@ -157,7 +157,7 @@ private:
     void followStray(std::uint32_t slot, const MobileGrains<Real>& mobile, const FixedView& frozen,
                      const FixedView& boundary, std::span<const Primitive> walls, double time);
     void appendPair(std::uint32_t a, std::uint32_t b);
-    void appendForeign(std::uint32_t slot, std::uint32_t packedPartner);
+    void appendForeign(std::uint32_t slot, PartnerSource source, std::uint32_t index);
 
     double skin_, largestRadius_;
     FindNear findNear_;

@@ -12,13 +12,13 @@ namespace sandflow {
 /// Forces of a chunk's grain contacts, written once for any kind of lanes. Lanes has
 ///
 ///   Number, Real, width           one lane, all lanes, how many
-///   subtract(a, b, apart, radii)  of records a[l], b[l]: positions in double, then rounded; sum of
+///   subtract(a, b, apart, radii)  of records a(l), b(l): positions in double, then rounded; sum of
 ///                                 radii
 ///   load(p)                       lane l = p[l]
-///   gatherRows(row, k, v)         v[c] lane l = row[l][k + c],  c < 4
-///   scatterRows(v, row, k)        row[l][k + c] = v[c] lane l
+///   gatherRows(row, k, v)         v[c] lane l = row(l)[k + c],  c < 4
+///   scatterRows(v, row, k)        row(l)[k + c] = v[c] lane l
 ///   storeRows(v, p)               p[storedRow(l) + c] = v[c] lane l
-///   bitsOf(mask), topBitsOf(p)    bit l = mask lane l; = highest bit of p[l]
+///   bitsOf(mask)                  bit l = mask lane l
 ///   append(mask, apart, packed, p, out, at)
 ///                                 lanes of the mask to out[at], out[at + 1], ..., with p + l as
 ///                                 pair; what follows them is overwritten
@@ -108,27 +108,41 @@ private:
         t.packed[to] = t.packed[from], t.pair[to] = t.pair[from];
     }
 
-    /// The grain of a listed pair; slot[k] is read for foreign pairs only.
-    template <bool foreign>
-    const Record* grainOf(std::uint32_t packed, const std::uint16_t* slot, std::uint32_t k) const
+    const Record* recordAt(std::uint32_t offset) const
     {
-        return work_.grains + (foreign ? slot[k] : own_pair::lowerOf(packed));
+        return reinterpret_cast<const Record*>(reinterpret_cast<const char*>(work_.grains) +
+                                               offset * (sizeof(Record) >> slot_offset::kShift));
+    }
+
+    ContactSum<Number>& sumAt(std::uint32_t offset) const
+    {
+        constexpr std::size_t kUnit = std::size_t{1} << slot_offset::kShift;
+        return *reinterpret_cast<ContactSum<Number>*>(reinterpret_cast<char*>(work_.sums) +
+                                                      offset / (kUnit / sizeof(ContactSum<Number>)));
+    }
+
+    /// Of a listed pair; slot[k] is read for foreign pairs only.
+    template <bool foreign>
+    static std::uint32_t grainOffset(std::uint32_t packed, const std::uint16_t* slot,
+                                     std::uint32_t k)
+    {
+        return foreign ? slot[k] : own_pair::lowerOffset(packed);
     }
 
     template <bool foreign>
     const Record* partnerOf(std::uint32_t packed) const
     {
         return foreign ? work_.source[partner::sourceOf(packed)] + partner::indexOf(packed)
-                       : work_.grains + own_pair::higherOf(packed);
+                       : recordAt(own_pair::higherOffset(packed));
     }
 
     /// Appends the pairs of [begin, end) that overlap to the `waiting` ones, without a branch on
-    /// whether they do. Springs of a contact start from zero; `live` is written only when it
-    /// changes.
+    /// whether they do. Springs of a contact start from zero; the live bits are written only when
+    /// they change.
     template <bool foreign>
     std::uint32_t findTouching(std::uint32_t begin, std::uint32_t end, std::uint32_t waiting)
     {
-        std::uint32_t* const list = foreign ? work_.foreign : work_.own;
+        const std::uint32_t* const list = foreign ? work_.foreign : work_.own;
         TouchingPairs<Number>& out = *work_.touching;
         for (std::uint32_t p = begin; p < end; p += kWidth) {
             const std::uint32_t* packed = list + p;
@@ -145,12 +159,6 @@ private:
                 slot = slotTail;
             }
             prefetchSprings<foreign>(p);
-            const Record* grain[kWidth];
-            const Record* partner[kWidth];
-            for (std::uint32_t l = 0; l < kWidth; ++l) {
-                grain[l] = grainOf<foreign>(packed[l], slot, l);
-                partner[l] = partnerOf<foreign>(packed[l]);
-            }
             if (foreign && p + kAhead + kWidth <= end) {
                 for (std::uint32_t l = 0; l < kWidth; ++l) {
                     __builtin_prefetch(partnerOf<foreign>(list[p + kAhead + l]));
@@ -158,7 +166,12 @@ private:
             }
             Vec<Real> apart;
             Real radii;
-            Lanes::subtract(grain, partner, apart, radii);
+            const auto lane = [](std::size_t l) { return static_cast<std::uint32_t>(l); };
+            Lanes::subtract(
+                [&](std::size_t l) {
+                    return recordAt(grainOffset<foreign>(packed[l], slot, lane(l)));
+                },
+                [&](std::size_t l) { return partnerOf<foreign>(packed[l]); }, apart, radii);
             const Real squared = dot(apart, apart);
             // A position that is no number counts as touching, so that it spreads and is noticed.
             const auto touches = (!(squared >= radii * radii)) & (squared != Real(0));
@@ -167,9 +180,14 @@ private:
 
             Lanes::append(touches, apart, packed, p, out, waiting);
             waiting += static_cast<std::uint32_t>(__builtin_popcount(touching));
-            const std::uint32_t changed = (touching ^ Lanes::topBitsOf(packed)) & inside;
+            static_assert(LiveBits::kBits % kWidth == 0, "bits of all lanes stand in one word");
+            std::uint32_t& live =
+                (foreign ? work_.foreignLive : work_.ownLive)[p / LiveBits::kBits];
+            const std::uint32_t changed =
+                (touching ^ live >> p % LiveBits::kBits) & inside;
             if (changed != 0) [[unlikely]] {
-                changeLive<foreign>(p, changed);
+                live ^= changed << p % LiveBits::kBits;
+                clearSprings<foreign>(p, changed);
             }
         }
         return waiting;
@@ -189,11 +207,10 @@ private:
     }
 
     template <bool foreign>
-    [[gnu::noinline]] void changeLive(std::uint32_t first, std::uint32_t changed)
+    [[gnu::noinline]] void clearSprings(std::uint32_t first, std::uint32_t pairs)
     {
-        for (; changed != 0; changed &= changed - 1) {
-            const std::uint32_t p = first + static_cast<std::uint32_t>(__builtin_ctz(changed));
-            (foreign ? work_.foreign : work_.own)[p] ^= partner::kLive;
+        for (; pairs != 0; pairs &= pairs - 1) {
+            const std::uint32_t p = first + static_cast<std::uint32_t>(__builtin_ctz(pairs));
             (foreign ? work_.foreignHistory : work_.ownHistory)[p] = {};
         }
     }
@@ -204,16 +221,17 @@ private:
     {
         const TouchingPairs<Number>& touching = *work_.touching;
         History* const history = foreign ? work_.foreignHistory : work_.ownHistory;
-        const Record* grain[kWidth];
-        const Record* partner[kWidth];
-        Number* springRow[kWidth];
-        for (std::uint32_t l = 0; l < kWidth; ++l) {
-            const std::uint32_t packed = touching.packed[first + l];
-            const std::uint32_t pair = touching.pair[first + l];
-            grain[l] = grainOf<foreign>(packed, work_.foreignSlot, pair);
-            partner[l] = partnerOf<foreign>(packed);
-            springRow[l] = reinterpret_cast<Number*>(history + pair);
-        }
+        const auto grainAt = [&](std::size_t l) {
+            return grainOffset<foreign>(touching.packed[first + l], work_.foreignSlot,
+                                        touching.pair[first + l]);
+        };
+        const auto grain = [&](std::size_t l) { return recordAt(grainAt(l)); };
+        const auto partner = [&](std::size_t l) {
+            return partnerOf<foreign>(touching.packed[first + l]);
+        };
+        const auto springRow = [&](std::size_t l) {
+            return reinterpret_cast<Number*>(history + touching.pair[first + l]);
+        };
         const Vec<Real> apart = {Lanes::load(touching.x + first), Lanes::load(touching.y + first),
                                  Lanes::load(touching.z + first)};
         const ContactSide<Real> a = RecordRows<Lanes>::gather(grain);
@@ -250,13 +268,14 @@ private:
         }
         const auto add = [&](std::uint32_t l) {
             const std::uint32_t row = Lanes::storedRow(l);
-            ContactSum<Number>& sum = work_.sums[grain[l] - work_.grains];
+            ContactSum<Number>& sum = sumAt(grainAt(l));
             Lanes::addRow(&sum.fx, force + row);
             Lanes::addRow(&sum.tx, torque + row);
             if constexpr (foreign) {
-                noteWake(touching.packed[first + l], *partner[l], force[row + 3]);
+                noteWake(touching.packed[first + l], *partner(l), force[row + 3]);
             } else {
-                ContactSum<Number>& other = work_.sums[partner[l] - work_.grains];
+                ContactSum<Number>& other =
+                    sumAt(own_pair::higherOffset(touching.packed[first + l]));
                 Lanes::addRowTurned(&other.fx, force + row);
                 Lanes::addRow(&other.tx, partnerTorque + row);
             }

@@ -32,13 +32,13 @@ float sumWallContacts(const LawNumbers<Real>& numbers, const StepInput<Real>& in
     float deepest = 0;
     for (std::size_t w = 0; w < contacts.walls.size(); ++w) {
         auto& wall = contacts.walls[w];
-        const std::uint32_t slot = wall.grain & ~partner::kLive;
+        const std::uint32_t slot = wall.grain;
         const GrainRecord<Real>& g = grains[slot];
         const SurfacePoint surface =
             nearestSurface(input.walls[wall.primitive], Vec3(g.x, g.y, g.z));
         const Real distance = static_cast<Real>(surface.distance);
         if (distance >= g.radius) {
-            wall.grain = slot;
+            wall.live = false;
             continue;
         }
         ContactGeometry<Real> at;
@@ -55,14 +55,14 @@ float sumWallContacts(const LawNumbers<Real>& numbers, const StepInput<Real>& in
 
         PairHistory<Real>& h = contacts.wallHistory[w];
         ContactSprings<Real> springs;
-        if (wall.grain & partner::kLive) {
+        if (wall.live) {
             springs = {{h.sx, h.sy, h.sz}, {h.qx, h.qy, h.qz}};
         }
         const ContactForce<Real> f = evaluateContact<law, rolling>(
             numbers, at, side, ContactSide<Real>{}, static_cast<Real>(input.dt), springs);
         h = {springs.tangential.x, springs.tangential.y, springs.tangential.z,
              springs.rolling.x,    springs.rolling.y,    springs.rolling.z};
-        wall.grain = slot | partner::kLive;
+        wall.live = true;
         deepest = std::max(deepest, static_cast<float>(at.overlap));
 
         ContactSum<Real>& sum = sums[slot];
@@ -145,6 +145,8 @@ private:
         work.own = contacts.own.data();
         work.foreign = contacts.foreign.data();
         work.foreignSlot = contacts.foreignSlot.data();
+        work.ownLive = contacts.ownLive.data();
+        work.foreignLive = contacts.foreignLive.data();
         work.ownHistory = contacts.ownHistory.data();
         work.foreignHistory = contacts.foreignHistory.data();
         work.touching = &space.touching;

@@ -49,21 +49,26 @@ private:
 
     [[gnu::flatten]] void move(std::uint32_t begin)
     {
-        const Record* record[kWidth];
-        Record* next[kWidth];
-        const Number* sum[kWidth];
-        const float* ball[kWidth];
         for (std::uint32_t l = 0; l < kWidth && begin + kAhead + l < work_.count; ++l) {
             __builtin_prefetch(work_.next + begin + kAhead + l, 1);
         }
-        for (std::uint32_t l = 0; l < kWidth; ++l) {
-            // Idle lanes repeat the last grain.
-            const std::uint32_t i = begin + l < work_.count ? begin + l : work_.count - 1;
-            record[l] = work_.record + i;
-            next[l] = work_.next + i;
-            sum[l] = &work_.sums[i].fx;
-            ball[l] = work_.ball + 4 * i;
+        if (work_.count - begin >= kWidth) [[likely]] {
+            moveLanes([begin](std::size_t l) { return begin + l; });
+        } else {  // idle lanes repeat the last grain
+            moveLanes([begin, last = work_.count - 1](std::size_t l) {
+                return std::min<std::size_t>(begin + l, last);
+            });
         }
+    }
+
+    /// slot(l) is the grain of lane l.
+    template <class SlotOf>
+    void moveLanes(SlotOf slot)
+    {
+        const auto record = [&](std::size_t l) { return work_.record + slot(l); };
+        const auto next = [&](std::size_t l) { return work_.next + slot(l); };
+        const auto sum = [&](std::size_t l) { return &work_.sums[slot(l)].fx; };
+        const auto ball = [&](std::size_t l) { return work_.ball + 4 * slot(l); };
         ContactSide<Real> g = Rows::gather(record);
         Real force[4], torque[4];
         Lanes::gatherRows(sum, 0, force);
@@ -76,8 +81,8 @@ private:
         const Vec<Real> place = Lanes::advance(record, next, work_.dt, g.velocity, work_.origin);
         Rows::scatter(g, next);
         for (std::uint32_t l = 0; l < kWidth; ++l) {
-            next[l]->id = record[l]->id;
-            next[l]->wakeForce = record[l]->wakeForce;
+            next(l)->id = record(l)->id;
+            next(l)->wakeForce = record(l)->wakeForce;
         }
 
         Real c[4];
@@ -91,7 +96,7 @@ private:
         if (broken != 0) [[unlikely]] {
             work_.broke = true;
             const std::uint32_t lane = 31u - static_cast<std::uint32_t>(__builtin_clz(broken));
-            work_.brokenGrain = begin + lane < work_.count ? begin + lane : work_.count - 1;
+            work_.brokenGrain = static_cast<std::uint32_t>(slot(lane));
         }
         using std::max;
         fastest_ = max(fastest_, dot(g.velocity, g.velocity));

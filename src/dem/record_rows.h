@@ -19,24 +19,23 @@ struct RecordRows {
     static_assert(offsetof(Record, vz) == kSpin * sizeof(Number) &&
                   offsetof(Record, wz) == (kSpin + 3) * sizeof(Number));
 
-    static ContactSide<Real> gather(const Record* const* record)
+    /// record(l) is the record of lane l.
+    template <class RecordOf>
+    static ContactSide<Real> gather(RecordOf record)
     {
-        const Number* row[Lanes::width];
-        for (std::uint32_t l = 0; l < Lanes::width; ++l) {
-            row[l] = reinterpret_cast<const Number*>(record[l]);
-        }
+        const auto row = [&](std::size_t l) {
+            return reinterpret_cast<const Number*>(record(l));
+        };
         Real mass[4], spin[4];
         Lanes::gatherRows(row, kMass, mass);
         Lanes::gatherRows(row, kSpin, spin);
         return {mass[0], mass[1], {mass[2], mass[3], spin[0]}, {spin[1], spin[2], spin[3]}};
     }
 
-    static void scatter(const ContactSide<Real>& side, Record* const* record)
+    template <class RecordOf>
+    static void scatter(const ContactSide<Real>& side, RecordOf record)
     {
-        Number* row[Lanes::width];
-        for (std::uint32_t l = 0; l < Lanes::width; ++l) {
-            row[l] = reinterpret_cast<Number*>(record[l]);
-        }
+        const auto row = [&](std::size_t l) { return reinterpret_cast<Number*>(record(l)); };
         const Vec<Real>& v = side.velocity;
         const Vec<Real>& w = side.spin;
         Lanes::scatterRows({side.radius, side.inverseMass, v.x, v.y}, row, kMass);

@@ -19,35 +19,36 @@ struct ScalarLanes {
         Number v[4];
     };
 
-    static void subtract(const GrainRecord<Number>* const* a, const GrainRecord<Number>* const* b,
-                         Vec<Number>& apart, Number& radii)
+    template <class RecordOf, class PartnerOf>
+    static void subtract(RecordOf a, PartnerOf b, Vec<Number>& apart, Number& radii)
     {
-        apart = {static_cast<Number>(a[0]->x - b[0]->x), static_cast<Number>(a[0]->y - b[0]->y),
-                 static_cast<Number>(a[0]->z - b[0]->z)};
-        radii = a[0]->radius + b[0]->radius;
+        apart = {static_cast<Number>(a(0)->x - b(0)->x), static_cast<Number>(a(0)->y - b(0)->y),
+                 static_cast<Number>(a(0)->z - b(0)->z)};
+        radii = a(0)->radius + b(0)->radius;
     }
-    static Vec<Number> advance(const GrainRecord<Number>* const* record,
-                               GrainRecord<Number>* const* next, double dt, const Vec<Number>& v,
+    template <class RecordOf, class NextOf>
+    static Vec<Number> advance(RecordOf record, NextOf next, double dt, const Vec<Number>& v,
                                const double (&origin)[3])
     {
-        next[0]->x = record[0]->x + dt * static_cast<double>(v.x);
-        next[0]->y = record[0]->y + dt * static_cast<double>(v.y);
-        next[0]->z = record[0]->z + dt * static_cast<double>(v.z);
-        return {static_cast<Number>(next[0]->x - origin[0]),
-                static_cast<Number>(next[0]->y - origin[1]),
-                static_cast<Number>(next[0]->z - origin[2])};
+        next(0)->x = record(0)->x + dt * static_cast<double>(v.x);
+        next(0)->y = record(0)->y + dt * static_cast<double>(v.y);
+        next(0)->z = record(0)->z + dt * static_cast<double>(v.z);
+        return {static_cast<Number>(next(0)->x - origin[0]),
+                static_cast<Number>(next(0)->y - origin[1]),
+                static_cast<Number>(next(0)->z - origin[2])};
     }
     static Number load(const Number* p) { return *p; }
-    template <class Pointer>
-    static void gatherRows(const Pointer* row, std::size_t k, Number (&v)[4])
+    template <class RowOf>
+    static void gatherRows(RowOf row, std::size_t k, Number (&v)[4])
     {
         for (int c = 0; c < 4; ++c) {
-            v[c] = static_cast<Number>(row[0][k + c]);
+            v[c] = static_cast<Number>(row(0)[k + c]);
         }
     }
-    static void scatterRows(const Row& row, Number* const* to, std::size_t k)
+    template <class RowOf>
+    static void scatterRows(const Row& row, RowOf to, std::size_t k)
     {
-        storeRows(row, to[0] + k);
+        storeRows(row, to(0) + k);
     }
     static void storeRows(const Row& row, Number* p)
     {
@@ -64,7 +65,6 @@ struct ScalarLanes {
     }
     static Number largest(Number v) { return v; }
     static std::uint32_t bitsOf(bool mask) { return mask; }
-    static std::uint32_t topBitsOf(const std::uint32_t* p) { return *p >> 31; }
     static void append(bool, const Vec<Number>& apart, const std::uint32_t* packed,
                        std::uint32_t p, TouchingPairs<Number>& out, std::uint32_t at)
     {

@@ -153,14 +153,15 @@ struct SimdLanes {
         LaneFloat v[4];
     };
 
-    template <class Pointer>
-    static HWY_INLINE void gatherRows(const Pointer* row, std::size_t k, LaneFloat (&v)[4])
+    template <class RowOf>
+    static HWY_INLINE void gatherRows(RowOf row, std::size_t k, LaneFloat (&v)[4])
     {
         // Block b of part m is the row of lane 4b + m; blocks are then turned four by four.
         transpose(collect<0>(Lanes32(), row, k), collect<1>(Lanes32(), row, k),
                   collect<2>(Lanes32(), row, k), collect<3>(Lanes32(), row, k), v);
     }
-    static HWY_INLINE void scatterRows(const Row& r, float* const* row, std::size_t k)
+    template <class RowOf>
+    static HWY_INLINE void scatterRows(const Row& r, RowOf row, std::size_t k)
     {
         LaneFloat part[4];
         transpose(r.v[0].v, r.v[1].v, r.v[2].v, r.v[3].v, part);
@@ -169,39 +170,32 @@ struct SimdLanes {
         spread<2>(Lanes32(), part[2].v, row, k);
         spread<3>(Lanes32(), part[3].v, row, k);
     }
-    static HWY_INLINE void subtract(const GrainRecord<float>* const* a,
-                                    const GrainRecord<float>* const* b, Vec<LaneFloat>& apart,
+    template <class RecordOf, class PartnerOf>
+    static HWY_INLINE void subtract(RecordOf a, PartnerOf b, Vec<LaneFloat>& apart,
                                     LaneFloat& radii)
     {
-        const auto low = subtractHalf(a, b);
-        const auto high = subtractHalf(a + kLaneCount / 2, b + kLaneCount / 2);
+        const auto low = subtractHalf<0>(a, b);
+        const auto high = subtractHalf<kLaneCount / 2>(a, b);
         apart = {narrow(high.x, low.x), narrow(high.y, low.y), narrow(high.z, low.z)};
         radii = hn::ConcatEven(Lanes32(), high.radiiAndMasses, low.radiiAndMasses);
     }
-    static HWY_INLINE Vec<LaneFloat> advance(const GrainRecord<float>* const* record,
-                                             GrainRecord<float>* const* next, double dt,
+    template <class RecordOf, class NextOf>
+    static HWY_INLINE Vec<LaneFloat> advance(RecordOf record, NextOf next, double dt,
                                              const Vec<LaneFloat>& v, const double (&origin)[3])
     {
         const hn::Rebind<float, Lanes64> half;
         const auto low =
-            advanceHalf(record, next, dt, hn::LowerHalf(half, v.x.v), hn::LowerHalf(half, v.y.v),
-                        hn::LowerHalf(half, v.z.v), origin);
-        const auto high =
-            advanceHalf(record + kLaneCount / 2, next + kLaneCount / 2, dt,
-                        hn::UpperHalf(half, v.x.v), hn::UpperHalf(half, v.y.v),
-                        hn::UpperHalf(half, v.z.v), origin);
+            advanceHalf<0>(record, next, dt, hn::LowerHalf(half, v.x.v),
+                           hn::LowerHalf(half, v.y.v), hn::LowerHalf(half, v.z.v), origin);
+        const auto high = advanceHalf<kLaneCount / 2>(
+            record, next, dt, hn::UpperHalf(half, v.x.v), hn::UpperHalf(half, v.y.v),
+            hn::UpperHalf(half, v.z.v), origin);
         return {narrow(high.x, low.x), narrow(high.y, low.y), narrow(high.z, low.z)};
     }
     static HWY_INLINE LaneFloat load(const float* p) { return hn::LoadU(Lanes32(), p); }
     static HWY_INLINE std::uint32_t bitsOf(LaneMask mask)
     {
         return HWY_NAMESPACE::bitsOf(mask);
-    }
-    static HWY_INLINE std::uint32_t topBitsOf(const std::uint32_t* p)
-    {
-        const hn::RebindToSigned<Lanes32> d;
-        const auto lanes = hn::BitCast(d, hn::LoadU(hn::RebindToUnsigned<Lanes32>(), p));
-        return bitsOf({hn::RebindMask(Lanes32(), hn::Lt(lanes, hn::Zero(d)))});
     }
     static HWY_INLINE void append(LaneMask mask, const Vec<LaneFloat>& apart,
                                   const std::uint32_t* packed, std::uint32_t p,
@@ -253,16 +247,17 @@ private:
         hn::Vec<Lanes32> radiiAndMasses;
     };
 
-    static HWY_INLINE HalfApart subtractHalf(const GrainRecord<float>* const* a,
-                                             const GrainRecord<float>* const* b)
+    template <std::size_t first, class RecordOf, class PartnerOf>
+    static HWY_INLINE HalfApart subtractHalf(RecordOf a, PartnerOf b)
     {
         const Lanes64 d2;
         const Lanes32 d;
-        const auto xyEven = hn::Sub(collectEven(d2, a, 0), collectEven(d2, b, 0));
-        const auto xyOdd = hn::Sub(collectEven(d2, a + 1, 0), collectEven(d2, b + 1, 0));
+        const auto xyEven = hn::Sub(collectEven<first>(d2, a, 0), collectEven<first>(d2, b, 0));
+        const auto xyOdd =
+            hn::Sub(collectEven<first + 1>(d2, a, 0), collectEven<first + 1>(d2, b, 0));
         // z and, in the upper half, two floats.
-        const auto aEven = collectEven(d2, a, 2), aOdd = collectEven(d2, a + 1, 2);
-        const auto bEven = collectEven(d2, b, 2), bOdd = collectEven(d2, b + 1, 2);
+        const auto aEven = collectEven<first>(d2, a, 2), aOdd = collectEven<first + 1>(d2, a, 2);
+        const auto bEven = collectEven<first>(d2, b, 2), bOdd = collectEven<first + 1>(d2, b, 2);
         return {hn::InterleaveLower(d2, xyEven, xyOdd), hn::InterleaveUpper(d2, xyEven, xyOdd),
                 hn::Sub(hn::InterleaveLower(d2, aEven, aOdd), hn::InterleaveLower(d2, bEven, bOdd)),
                 hn::Add(hn::BitCast(d, hn::InterleaveUpper(d2, aEven, aOdd)),
@@ -273,16 +268,16 @@ private:
         hn::Vec<Lanes64> x, y, z;
     };
 
-    template <class HalfFloat>
-    static HWY_INLINE HalfPlace advanceHalf(const GrainRecord<float>* const* record,
-                                            GrainRecord<float>* const* next, double dt,
-                                            HalfFloat vx, HalfFloat vy, HalfFloat vz,
-                                            const double (&origin)[3])
+    template <std::size_t first, class RecordOf, class NextOf, class HalfFloat>
+    static HWY_INLINE HalfPlace advanceHalf(RecordOf record, NextOf next, double dt, HalfFloat vx,
+                                            HalfFloat vy, HalfFloat vz, const double (&origin)[3])
     {
         const Lanes64 d2;
         const auto step = hn::Set(d2, dt);
-        const auto xyEven = collectEven(d2, record, 0), xyOdd = collectEven(d2, record + 1, 0);
-        const auto zEven = collectEven(d2, record, 2), zOdd = collectEven(d2, record + 1, 2);
+        const auto xyEven = collectEven<first>(d2, record, 0);
+        const auto xyOdd = collectEven<first + 1>(d2, record, 0);
+        const auto zEven = collectEven<first>(d2, record, 2);
+        const auto zOdd = collectEven<first + 1>(d2, record, 2);
         const auto moved = [&](auto at, HalfFloat v) HWY_ATTR {
             return hn::Add(at, hn::Mul(step, hn::PromoteTo(d2, v)));
         };
@@ -291,40 +286,38 @@ private:
         const auto z = moved(hn::InterleaveLower(d2, zEven, zOdd), vz);
         // Beside z lie radius and 1/m: they are passed on.
         const auto rest = hn::InterleaveUpper(d2, zEven, zOdd);
-        spreadEven(d2, hn::InterleaveLower(d2, x, y), next, 0);
-        spreadEven(d2, hn::InterleaveUpper(d2, x, y), next + 1, 0);
-        spreadEven(d2, hn::InterleaveLower(d2, z, rest), next, 2);
-        spreadEven(d2, hn::InterleaveUpper(d2, z, rest), next + 1, 2);
+        spreadEven<first>(d2, hn::InterleaveLower(d2, x, y), next, 0);
+        spreadEven<first + 1>(d2, hn::InterleaveUpper(d2, x, y), next, 0);
+        spreadEven<first>(d2, hn::InterleaveLower(d2, z, rest), next, 2);
+        spreadEven<first + 1>(d2, hn::InterleaveUpper(d2, z, rest), next, 2);
         return {hn::Sub(x, hn::Set(d2, origin[0])), hn::Sub(y, hn::Set(d2, origin[1])),
                 hn::Sub(z, hn::Set(d2, origin[2]))};
     }
 
-    template <class Tag>
-    static HWY_INLINE void spreadEven(Tag d, hn::Vec<Tag> part, GrainRecord<float>* const* record,
-                                      std::size_t k)
+    template <std::size_t first, class Tag, class RecordOf>
+    static HWY_INLINE void spreadEven(Tag d, hn::Vec<Tag> part, RecordOf record, std::size_t k)
     {
         constexpr std::size_t lanes = HWY_MIN(8, hn::MaxLanes(Tag()));
         if constexpr (lanes == 2) {
-            hn::StoreU(part, d, &record[0]->x + k);
+            hn::StoreU(part, d, &record(first)->x + k);
         } else {
             const hn::Half<Tag> half;
-            spreadEven(half, hn::LowerHalf(half, part), record, k);
-            spreadEven(half, hn::UpperHalf(half, part), record + lanes / 2, k);
+            spreadEven<first>(half, hn::LowerHalf(half, part), record, k);
+            spreadEven<first + lanes / 2>(half, hn::UpperHalf(half, part), record, k);
         }
     }
 
-    /// Two doubles from the k-th on of records 0, 2, 4, ... side by side.
-    template <class Tag>
-    static HWY_INLINE hn::Vec<Tag> collectEven(Tag d, const GrainRecord<float>* const* record,
-                                               std::size_t k)
+    /// Two doubles from the k-th on of the records of lanes first, first + 2, ... side by side.
+    template <std::size_t first, class Tag, class RecordOf>
+    static HWY_INLINE hn::Vec<Tag> collectEven(Tag d, RecordOf record, std::size_t k)
     {
         constexpr std::size_t lanes = HWY_MIN(8, hn::MaxLanes(Tag()));
         if constexpr (lanes == 2) {
-            return hn::LoadU(d, &record[0]->x + k);
+            return hn::LoadU(d, &record(first)->x + k);
         } else {
             const hn::Half<Tag> half;
-            return hn::Combine(d, collectEven(half, record + lanes / 2, k),
-                               collectEven(half, record, k));
+            return hn::Combine(d, collectEven<first + lanes / 2>(half, record, k),
+                               collectEven<first>(half, record, k));
         }
     }
 
@@ -335,28 +328,28 @@ private:
     }
 
     /// Rows of lanes m, m + 4, m + 8, ... side by side.
-    template <std::size_t m, class Tag, class Pointer>
-    static HWY_INLINE hn::Vec<Tag> collect(Tag d, const Pointer* row, std::size_t k)
+    template <std::size_t m, class Tag, class RowOf>
+    static HWY_INLINE hn::Vec<Tag> collect(Tag d, RowOf row, std::size_t k)
     {
         constexpr std::size_t lanes = HWY_MIN(16, hn::MaxLanes(Tag()));
         if constexpr (lanes == 4) {
-            return hn::LoadU(d, row[m] + k);
+            return hn::LoadU(d, row(m) + k);
         } else {
             const hn::Half<Tag> half;
-            return hn::Combine(d, collect<m>(half, row + lanes / 2, k), collect<m>(half, row, k));
+            return hn::Combine(d, collect<m + lanes / 2>(half, row, k), collect<m>(half, row, k));
         }
     }
 
-    template <std::size_t m, class Tag>
-    static HWY_INLINE void spread(Tag d, hn::Vec<Tag> part, float* const* row, std::size_t k)
+    template <std::size_t m, class Tag, class RowOf>
+    static HWY_INLINE void spread(Tag d, hn::Vec<Tag> part, RowOf row, std::size_t k)
     {
         constexpr std::size_t lanes = HWY_MIN(16, hn::MaxLanes(Tag()));
         if constexpr (lanes == 4) {
-            hn::StoreU(part, d, row[m] + k);
+            hn::StoreU(part, d, row(m) + k);
         } else {
             const hn::Half<Tag> half;
             spread<m>(half, hn::LowerHalf(half, part), row, k);
-            spread<m>(half, hn::UpperHalf(half, part), row + lanes / 2, k);
+            spread<m + lanes / 2>(half, hn::UpperHalf(half, part), row, k);
         }
     }
 

@@ -41,7 +41,7 @@ Listed collectListed(const Cloud& cloud)
             if (partner::sourceOf(packed) == static_cast<std::uint32_t>(PartnerSource::mobile)) {
                 EXPECT_NE(at / kChunkSize, c) << "a pair within the chunk belongs to own";
             }
-            ++out.foreign[{grain[chunk.foreignSlot[q]].id,
+            ++out.foreign[{grain[slot_offset::slotOf(chunk.foreignSlot[q])].id,
                            (*source[partner::sourceOf(packed)])[at].id}];
         }
     }
@@ -286,7 +286,7 @@ TEST(ContactLists, WallsWithinReachAreListedOnce)
         std::map<Pair, int> listed;
         for (std::size_t c = 0; c < cloud.lists.chunkCount(); ++c) {
             for (const auto& wall : cloud.lists.chunks()[c].walls) {
-                const std::uint32_t slot = wall.grain & ~partner::kLive;
+                const std::uint32_t slot = wall.grain;
                 ++listed[{cloud.mobile.record[c * kChunkSize + slot].id, wall.primitive}];
             }
         }

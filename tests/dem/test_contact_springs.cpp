@@ -57,7 +57,7 @@ std::map<Pair, Springs> collectSprings(const Dem<float>& dem)
         const ChunkContacts<float>& chunk = dem.lists().chunks()[c];
         const GrainRecord<float>* grain = dem.mobile().record.data() + c * kChunkSize;
         for (std::size_t p = 0; p < chunk.own.size(); ++p) {
-            if (chunk.own[p] & own_pair::kLive) {
+            if (chunk.ownLive[p]) {
                 const std::uint32_t a = grain[own_pair::lowerOf(chunk.own[p])].id;
                 const std::uint32_t b = grain[own_pair::higherOf(chunk.own[p])].id;
                 const Springs springs = toArray(chunk.ownHistory[p]);
@@ -67,17 +67,17 @@ std::map<Pair, Springs> collectSprings(const Dem<float>& dem)
         }
         for (std::size_t q = 0; q < chunk.foreign.size(); ++q) {
             const std::uint32_t packed = chunk.foreign[q];
-            if (packed & partner::kLive) {
+            if (chunk.foreignLive[q]) {
                 const std::uint32_t b =
                     (*source[partner::sourceOf(packed)])[partner::indexOf(packed)].id;
-                EXPECT_TRUE(out.emplace(Pair(grain[chunk.foreignSlot[q]].id, b),
+                EXPECT_TRUE(out.emplace(Pair(grain[slot_offset::slotOf(chunk.foreignSlot[q])].id, b),
                                         toArray(chunk.foreignHistory[q]))
                                 .second);
             }
         }
         for (std::size_t w = 0; w < chunk.walls.size(); ++w) {
-            if (chunk.walls[w].grain & partner::kLive) {
-                const std::uint32_t slot = chunk.walls[w].grain & ~partner::kLive;
+            if (chunk.walls[w].live) {
+                const std::uint32_t slot = chunk.walls[w].grain;
                 EXPECT_TRUE(
                     out.emplace(Pair(grain[slot].id, kFirstWallId + chunk.walls[w].primitive),
                                 toArray(chunk.wallHistory[w]))

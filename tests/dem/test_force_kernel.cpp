@@ -262,18 +262,18 @@ TEST(ForceKernel, OnlyTouchingPairsHaveSpringsAndNewOnesStartFromZero)
     ASSERT_EQ(contacts.own.size(), 1u);
     contacts.ownHistory[0].sy = 123.0f;  // what a pair that does not touch holds means nothing
     rig.step();
-    EXPECT_FALSE(contacts.own[0] & own_pair::kLive);
+    EXPECT_FALSE(contacts.ownLive[0]);
     EXPECT_EQ(contacts.ownHistory[0].sy, 123.0f);
     while (rig.reports[0].deepestOverlap == 0.0f) {
         rig.step();
     }
     EXPECT_TRUE(rig.hold);
-    EXPECT_TRUE(contacts.own[0] & own_pair::kLive);
+    EXPECT_TRUE(contacts.ownLive[0]);
     EXPECT_EQ(contacts.ownHistory[0].sy, 0.0f);
     while (rig.reports[0].deepestOverlap > 0.0f) {
         rig.step();
     }
-    EXPECT_FALSE(contacts.own[0] & own_pair::kLive);
+    EXPECT_FALSE(contacts.ownLive[0]);
 }
 
 TEST(ForceKernel, FrozenGrainsPushedBeyondTheirLimitAreReported)

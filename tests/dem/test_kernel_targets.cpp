@@ -73,7 +73,7 @@ Trace runBed(const ContactCoefficients& law, KernelTarget target, int observeEve
     }
     for (const ChunkContacts<float>& chunk : bed.lists.chunks()) {
         for (std::size_t p = 0; p < chunk.own.size(); ++p) {
-            if (chunk.own[p] & own_pair::kLive) {
+            if (chunk.ownLive[p]) {
                 trace.springs = extendHash(trace.springs, std::bit_cast<std::uint32_t>(
                                                               chunk.ownHistory[p].sx));
                 trace.springs = extendHash(trace.springs, std::bit_cast<std::uint32_t>(

@@ -28,7 +28,7 @@ TEST(StrayBalls, FindsEveryBallThatMeets)
             strays.add(n, balls.back());
         }
         std::size_t met = 0;
-        for (int k = 0; k < 50; ++k) {
+        for (int k = 0; k < 400; ++k) {
             const SearchBall ball = randomBall(random, 0.2);
             std::multiset<std::uint32_t> expected, found;
             for (std::uint32_t n = 0; n < count; ++n) {
