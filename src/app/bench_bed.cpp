@@ -34,6 +34,7 @@ double meanEnergy(const Dem<float>& dem)
 DemSetup makeBenchSetup(bool rolling)
 {
     DemSetup setup;
+    setup.judged = false;
     setup.meanRadius = setup.largestRadius = bench::kRadius;
     setup.density = bench::kDensity;
     setup.skin = 0.2;  // 1 mm, as good as any here and what the decks of the other codes use

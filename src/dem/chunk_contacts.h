@@ -101,12 +101,21 @@ struct ChunkContacts {
     std::vector<Wall> walls;
     std::vector<PairHistory<Real>> wallHistory;
 
-    void clear()
+    /// Empties the lists and leaves room for about as much as there was: chunks change little from
+    /// one rebuild to the next, and room that doubled while a list grew is given back.
+    void clearAndFit()
     {
+        const auto fit = [](auto& list) {
+            const std::size_t room = list.size() + list.size() / 16 + 16;
+            list.clear();
+            if (list.capacity() < room || list.capacity() > room + room / 4) {
+                list.shrink_to_fit();
+                list.reserve(room);
+            }
+        };
         grainCount = 0;
-        own.clear(), foreign.clear(), foreignSlot.clear();
-        ownLive.clear(), foreignLive.clear();
-        ownHistory.clear(), foreignHistory.clear(), walls.clear(), wallHistory.clear();
+        fit(own), fit(foreign), fit(foreignSlot), fit(ownHistory), fit(foreignHistory);
+        ownLive.clear(), foreignLive.clear(), walls.clear(), wallHistory.clear();
     }
 
     void appendOwn(std::uint32_t lower, std::uint32_t higher, bool live,

@@ -76,7 +76,7 @@ struct NearWork {
     const SlotRange* ranges;
     std::uint32_t rangeCount;
     float at[3], ownReach;           ///< m, the ball
-    std::uint32_t* found;            ///< out: slots in order; room for all of the ranges
+    std::uint32_t* found;            ///< out: slots in order; room for all of the ranges and kMaxLanes
     std::uint32_t foundCount;        ///< out
 };
 using FindNear = void (*)(NearWork& work);

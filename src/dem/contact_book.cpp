@@ -5,14 +5,8 @@
 namespace sandflow {
 namespace {
 
-template <class Real>
-PairHistory<Real> negated(const PairHistory<Real>& s)
-{
-    return {-s.sx, -s.sy, -s.sz, -s.qx, -s.qy, -s.qz};
-}
-
-/// Calls visit(grain, partnerId, springs as the grain sees them) for every live contact of a chunk,
-/// pairs within the chunk from both sides.
+/// Calls visit(grain, partnerId, springs as the grain sees them) for every live contact of a chunk. Of
+/// two grains in different chunks the one with the lower id has it.
 template <class Real, class Visit>
 void visitLive(const ChunkContacts<Real>& chunk, const GrainRecord<Real>* grains,
                const std::array<const GrainRecord<Real>*, kPartnerSources>& source, Visit visit)
@@ -22,15 +16,17 @@ void visitLive(const ChunkContacts<Real>& chunk, const GrainRecord<Real>* grains
             const std::uint32_t i = own_pair::lowerOf(chunk.own[p]);
             const std::uint32_t j = own_pair::higherOf(chunk.own[p]);
             visit(i, grains[j].id, chunk.ownHistory[p]);
-            visit(j, grains[i].id, negated(chunk.ownHistory[p]));
         }
     }
     for (std::size_t q = 0; q < chunk.foreign.size(); ++q) {
         if (chunk.foreignLive[q]) {
             const std::uint32_t f = chunk.foreign[q];
-            visit(slot_offset::slotOf(chunk.foreignSlot[q]),
-                  source[partner::sourceOf(f)][partner::indexOf(f)].id,
-                  chunk.foreignHistory[q]);
+            const std::uint32_t slot = slot_offset::slotOf(chunk.foreignSlot[q]);
+            const std::uint32_t id = source[partner::sourceOf(f)][partner::indexOf(f)].id;
+            if (partner::sourceOf(f) != static_cast<std::uint32_t>(PartnerSource::mobile) ||
+                grains[slot].id < id) {
+                visit(slot, id, chunk.foreignHistory[q]);
+            }
         }
     }
     for (std::size_t w = 0; w < chunk.walls.size(); ++w) {
@@ -69,6 +65,11 @@ void ContactBook<Real>::record(std::span<const ChunkContacts<Real>> chunks,
     }
     for (std::int64_t c = 0; c < chunkCount; ++c) {
         chunkBegin_[c + 1] += chunkBegin_[c];
+    }
+    if (const std::size_t count = chunkBegin_.back(); count > history_.capacity()) {
+        partner_.clear(), history_.clear();  // nothing to be copied
+        partner_.reserve(count + count / 16);
+        history_.reserve(count + count / 16);
     }
     partner_.resize(chunkBegin_.back());
     history_.resize(chunkBegin_.back());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/chunk_contacts.h"
+#include "grains/mobile_grains.h"
 
 #include <span>
 #include <vector>
@@ -8,12 +9,11 @@
 namespace sandflow {
 
 /// Springs of all live contacts, by row (one per mobile grain of the old lists) and partner id:
-/// what outlives a rebuild of the lists. Every contact of two mobile grains stands in both rows.
+/// what outlives a rebuild of the lists. A contact of two mobile grains stands in the row of one of
+/// them, a contact with anything fixed in that of the mobile grain.
 template <class Real>
 class ContactBook {
 public:
-    static constexpr std::uint32_t kNoRow = 0xFFFFFFFFu;
-
     /// Copies the live contacts of the lists as they stand.
     void record(std::span<const ChunkContacts<Real>> chunks,
                 std::span<const GrainRecord<Real>> mobile,
@@ -35,7 +35,7 @@ public:
     }
 
     /// Springs as grain a sees them, of the contact of two grains with these rows and ids; zero and
-    /// false if they did not touch. Contacts of two mobile grains stand in the rows of both.
+    /// false if they did not touch.
     bool recall(std::uint32_t rowA, std::uint32_t idA, std::uint32_t rowB, std::uint32_t idB,
                 PairHistory<Real>& springs) const
     {
@@ -43,13 +43,11 @@ public:
             springs = *h;
             return true;
         }
-        springs = {};
-        if (rowA == kNoRow) {
-            if (const PairHistory<Real>* h = find(rowB, idA)) {
-                springs = {-h->sx, -h->sy, -h->sz, -h->qx, -h->qy, -h->qz};
-                return true;
-            }
+        if (const PairHistory<Real>* h = find(rowB, idA)) {
+            springs = {-h->sx, -h->sy, -h->sz, -h->qx, -h->qy, -h->qz};
+            return true;
         }
+        springs = {};
         return false;
     }
 

@@ -21,28 +21,29 @@ template <class Real>
 void ContactLists<Real>::sortMobile(double horizon, MobileGrains<Real>& mobile)
 {
     const auto n = static_cast<std::int64_t>(mobile.size());
-    searchScratch_.resize(mobile.size());
-#pragma omp parallel for schedule(static)
-    for (std::int64_t k = 0; k < n; ++k) {
-        searchScratch_[k] = ballAhead(mobile.record[k], horizon);
-    }
     cells_.build(mobile.size(), [&](std::size_t k) {
-        return Vec3(searchScratch_[k].x, searchScratch_[k].y, searchScratch_[k].z);
+        const SearchBall ball = ballAhead(mobile.record[k], horizon);
+        return Vec3(ball.x, ball.y, ball.z);
     });
 
     mobile.next.resize(mobile.size());
-    memoryScratch_.resize(mobile.size());
+    rowScratch_.resize(mobile.size());
+    memoryScratch_.resize(mobile.memory.size());
     search_.resize(mobile.size());
     columns_.resize(mobile.size());
     const std::span<const std::uint32_t> order = cells_.order();
 #pragma omp parallel for schedule(static)
     for (std::int64_t k = 0; k < n; ++k) {
         mobile.next[k] = mobile.record[order[k]];
-        memoryScratch_[k] = mobile.memory[order[k]];
-        search_[k] = searchScratch_[order[k]];
+        rowScratch_[k] = mobile.row[order[k]];
+        if (mobile.judged) {
+            memoryScratch_[k] = mobile.memory[order[k]];
+        }
+        search_[k] = ballAhead(mobile.next[k], horizon);
         columns_.set(k, search_[k]);
     }
     mobile.record.swap(mobile.next);
+    mobile.row.swap(rowScratch_);
     mobile.memory.swap(memoryScratch_);
     placeBalls(mobile);
     spreadSearchRadius();
@@ -157,13 +158,16 @@ void ContactLists<Real>::findSurroundings(std::uint32_t cell, std::uint32_t firs
             }
         };
         cells.visitNear(at, searchRadius_[cell], [&](const SortedCells::Cell& other) {
-            const double dx = gap(other.index.i, at.i), dy = gap(other.index.j, at.j),
-                         dz = gap(other.index.k, at.k);
-            const double reach = static_cast<double>(cellReach_[cell]) + reachOf(other);
-            if (dx * dx + dy * dy + dz * dz < reach * reach) {
-                add(other.begin, std::min(other.end, skipBegin));
-                add(std::max(other.begin, skipEnd), other.end);
+            if (searchRadius_[cell] > 1) {
+                const double dx = gap(other.index.i, at.i), dy = gap(other.index.j, at.j),
+                             dz = gap(other.index.k, at.k);
+                const double reach = static_cast<double>(cellReach_[cell]) + reachOf(other);
+                if (dx * dx + dy * dy + dz * dz >= reach * reach) {
+                    return;
+                }
             }
+            add(other.begin, std::min(other.end, skipBegin));
+            add(std::max(other.begin, skipEnd), other.end);
         });
         // In slot order, so that lists do not depend on the search's. Cells that follow each other
         // along the curve become one range.
@@ -191,8 +195,8 @@ void ContactLists<Real>::findSurroundings(std::uint32_t cell, std::uint32_t firs
     const auto fixedReach = [&](const SortedCells::Cell&) { return largestRadius_; };
     collect(frozen.cells, fixedReach, 0, 0, near.frozen);
     collect(boundary.cells, fixedReach, 0, 0, near.boundary);
-    if (near.found.size() < most) {
-        near.found.resize(2 * most);
+    if (near.found.size() < most + kMaxLanes) {
+        near.found.resize(2 * most + kMaxLanes);
     }
 }
 
@@ -202,7 +206,7 @@ void ContactLists<Real>::searchChunk(std::uint32_t chunk, const MobileGrains<Rea
                                      const ContactBook<Real>& book, Surroundings& near)
 {
     ChunkContacts<Real>& out = chunks_[chunk];
-    out.clear();
+    out.clearAndFit();
     const std::uint32_t first = chunk * kChunkSize;
     const std::uint32_t last =
         std::min<std::uint32_t>(first + kChunkSize, static_cast<std::uint32_t>(mobile.size()));
@@ -215,7 +219,7 @@ void ContactLists<Real>::searchChunk(std::uint32_t chunk, const MobileGrains<Rea
             findSurroundings(currentCell, first, frozen, boundary, near);
         }
         const SearchBall& ball = search_[i];
-        const std::uint32_t row = mobile.memory[i].row;
+        const std::uint32_t row = mobile.row[i];
         const std::uint32_t slot = i - first;
         const auto find = [&](const BallColumns& columns, const std::vector<SlotRange>& ranges) {
             NearWork sieve;
@@ -241,7 +245,7 @@ void ContactLists<Real>::searchChunk(std::uint32_t chunk, const MobileGrains<Rea
             if ((j <= i && j >= first) || !ball.meets(other)) {
                 continue;
             }
-            const bool live = book.recall(row, ball.id, mobile.memory[j].row, other.id, springs);
+            const bool live = book.recall(row, ball.id, mobile.row[j], other.id, springs);
             if (j >= first && j < last) {
                 out.appendOwn(slot, j - first, live, springs);
             } else {
@@ -257,7 +261,7 @@ void ContactLists<Real>::searchChunk(std::uint32_t chunk, const MobileGrains<Rea
                 const SearchBall other = ballOfFixed(fixed.record[j]);
                 if (ball.meets(other)) {
                     const bool live =
-                        book.recall(row, ball.id, ContactBook<Real>::kNoRow, other.id, springs);
+                        book.recall(row, ball.id, fixed.row[j], other.id, springs);
                     out.appendForeign(slot, source, j, live, springs);
                 }
             }
@@ -296,7 +300,7 @@ void ContactLists<Real>::searchWalls(std::uint32_t chunk, const MobileGrains<Rea
         for (std::uint32_t i = first; i < last; ++i) {
             if (nearestSurface(walls[w], centreOf(i)).distance <
                 static_cast<double>(search_[i].reach)) {
-                const auto* springs = book.find(mobile.memory[i].row, kFirstWallId + w);
+                const auto* springs = book.find(mobile.row[i], kFirstWallId + w);
                 out.walls.push_back({static_cast<std::uint16_t>(i - first), springs != nullptr, w});
                 out.wallHistory.push_back(springs ? *springs : PairHistory<Real>{});
             }
@@ -397,8 +401,8 @@ std::size_t ContactLists<Real>::bytes() const
 {
     std::size_t sum = balls_.capacity() * sizeof(Ball) + columns_.bytes() +
                       frozenColumns_.balls.bytes() + boundaryColumns_.balls.bytes() +
-                      (search_.capacity() + searchScratch_.capacity()) * sizeof(SearchBall) +
-                      cellOfSlot_.capacity() * sizeof(std::uint32_t) +
+                      search_.capacity() * sizeof(SearchBall) +
+                      (cellOfSlot_.capacity() + rowScratch_.capacity()) * sizeof(std::uint32_t) +
                       memoryScratch_.capacity() * sizeof(GrainMemory) + cells_.bytes();
     for (const ChunkContacts<Real>& chunk : chunks_) {
         sum += chunk.bytes();

@@ -98,14 +98,22 @@ public:
     std::size_t bytes() const;
 
 private:
-    /// The columns of fixed grains, made anew when those were sorted anew.
+    /// Columns of the fixed grains, made anew when those were sorted anew, and their rows in the
+    /// book, which change with every book.
     struct FixedColumns {
         BallColumns balls;
+        std::vector<std::uint32_t> row;
         std::uint64_t version = 0;
 
         template <class Info>
         void follow(const FixedGrains<Real, Info>& fixed)
         {
+            row.assign(fixed.size(), kNoRow);
+            if constexpr (requires(Info info) { info.row; }) {
+                for (std::size_t k = 0; k < fixed.size(); ++k) {
+                    row[k] = fixed.info(k).row;
+                }
+            }
             if (version == fixed.version()) {
                 return;
             }
@@ -120,11 +128,12 @@ private:
         const std::vector<GrainRecord<Real>>& record;
         const SortedCells& cells;
         const BallColumns& balls;
+        const std::vector<std::uint32_t>& row;
     };
     template <class Info>
     static FixedView viewOf(const FixedGrains<Real, Info>& fixed, const FixedColumns& columns)
     {
-        return {fixed.records(), fixed.cells(), columns.balls};
+        return {fixed.records(), fixed.cells(), columns.balls, columns.row};
     }
 
     /// Neighbours of one cell as ranges of slots, and who of them one grain may meet.
@@ -163,7 +172,7 @@ private:
     FindNear findNear_;
     double horizon_ = 0.0;  ///< s, T of these lists
     SortedCells cells_;
-    std::vector<SearchBall> search_, searchScratch_;
+    std::vector<SearchBall> search_;
     BallColumns columns_;  ///< of search_
     FixedColumns frozenColumns_, boundaryColumns_;
     StrayBalls strays_;               ///< further balls; a grain may be in any of its own
@@ -173,6 +182,7 @@ private:
     std::vector<std::uint32_t> cellOfSlot_;
     std::vector<std::uint8_t> searchRadius_;
     std::vector<GrainMemory> memoryScratch_;
+    std::vector<std::uint32_t> rowScratch_;
     std::vector<Ball> balls_;
     std::vector<Vec3> origins_;
     std::vector<ChunkContacts<Real>> chunks_;

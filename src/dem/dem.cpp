@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace sandflow {
 namespace {
@@ -26,6 +27,7 @@ Dem<Real>::Dem(const DemSetup& setup)
       kernel_(makeForceKernel<Real>(setup.law, false)),
       observingKernel_(makeForceKernel<Real>(setup.law, true))
 {
+    mobile_.judged = setup_.judged;
     for (std::size_t p = 0; p < setup_.primitives.size(); ++p) {
         if (setup_.primitives[p].rough) {
             covers_.push_back({p,
@@ -58,8 +60,9 @@ template <class Real>
 void Dem<Real>::recordContacts()
 {
     book_.record(lists_.chunks(), mobile_.record, frozen_.records(), boundary_.records());
-    for (std::uint32_t k = 0; k < mobile_.size(); ++k) {
-        mobile_.memory[k].row = k;
+    std::iota(mobile_.row.begin(), mobile_.row.end(), 0u);
+    for (std::size_t k = 0; k < frozen_.size(); ++k) {
+        frozen_.info(k).row = kNoRow;
     }
     // The indices are about to change, and the next transfer may be a rebuild or two away.
     for (const std::uint32_t k : wakeRequests_) {
@@ -82,10 +85,7 @@ void Dem<Real>::addMobile(const Vec3& position, const Vec3& velocity, const Vec3
     g.wx = static_cast<Real>(spin.x());
     g.wy = static_cast<Real>(spin.y());
     g.wz = static_cast<Real>(spin.z());
-    mobile_.record.push_back(g);
-    GrainMemory memory;
-    memory.anchorX = g.x, memory.anchorY = g.y, memory.anchorZ = g.z;
-    mobile_.memory.push_back(memory);
+    mobile_.add(g);
 }
 
 template <class Real>
@@ -94,7 +94,9 @@ void Dem<Real>::rebuild(double time, double dt)
     lists_.rebuild(chooseHorizon(dt), mobile_, frozen_, boundary_, setup_.primitives, time,
                    book_, [&](const SortedCells& cells) { coverRoughSolids(cells, time); });
     mobile_.next.resize(mobile_.size());
-    mobile_.load.resize(mobile_.size());
+    if (setup_.judged) {
+        mobile_.load.resize(mobile_.size());
+    }
     reports_.resize(lists_.chunkCount());
     listTime_ = time;
     listsHold_ = true;
@@ -171,6 +173,9 @@ template <class Real>
 void Dem<Real>::step(double dt, bool observe)
 {
     SAND_CHECK(listsHold_, "step without valid contact lists");
+    if (observe) {
+        mobile_.load.resize(mobile_.size());
+    }
     StepInput<Real> input;
     input.source = {mobile_.record.data(), frozen_.records().data(), boundary_.records().data()};
     input.walls = setup_.primitives;
@@ -273,6 +278,7 @@ template <class Real>
 std::size_t Dem<Real>::bytes() const
 {
     return (mobile_.record.capacity() + mobile_.next.capacity()) * sizeof(GrainRecord<Real>) +
+           mobile_.row.capacity() * sizeof(std::uint32_t) +
            mobile_.memory.capacity() * sizeof(GrainMemory) +
            mobile_.load.capacity() * sizeof(GrainLoad) + lists_.bytes() + book_.bytes() +
            (frozen_.size() + boundary_.size()) * sizeof(GrainRecord<Real>);

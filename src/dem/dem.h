@@ -26,6 +26,7 @@ struct DemSetup {
     std::vector<Primitive> primitives;
     std::uint64_t seed = 1;
     double skin = 0.3;          ///< in mean radii: how far a resting grain may move before lists end
+    bool judged = true;         ///< mobile grains keep clocks of rest and loads (surface flow)
     double longestHorizon = 64;  ///< T of the contact lists, in steps, at the most
     /// In mean radii, see RoughCover. Wide: as rough as grains glued side by side, yet tight (a grain
     /// would pass at an overlap of 0.5). At 0.85 the lowest grains of a poured heap still slid at

@@ -9,7 +9,11 @@ namespace sandflow {
 
 /// Which balls of some ranges may meet one ball: the first sieve of the search for contacts. Floats,
 /// and a reach that is a little wide: who passes is judged exactly afterwards. Lanes as in
-/// ContactPass.
+/// ContactPass; besides
+///
+///   firstLanes(n)                 mask of the first n lanes, of all if there are no more
+///   appendSlots(mask, slot, out)  slot + l of the lanes of the mask to out[0], out[1], ...; what
+///                                 follows them is overwritten
 template <class Lanes>
 struct NearPass {
     using Real = typename Lanes::Real;
@@ -25,13 +29,10 @@ struct NearPass {
                 const Vec<Real> apart = Vec<Real>{Lanes::load(work.x + j), Lanes::load(work.y + j),
                                                   Lanes::load(work.z + j)} - at;
                 const Real limit = Lanes::load(work.reach + j) + ownReach;
-                std::uint32_t near = Lanes::bitsOf(dot(apart, apart) < limit * limit);
-                if (end - j < Lanes::width) {
-                    near &= (1u << (end - j)) - 1u;
-                }
-                for (; near != 0; near &= near - 1) {
-                    work.found[found++] = j + static_cast<std::uint32_t>(__builtin_ctz(near));
-                }
+                const auto near =
+                    (dot(apart, apart) < limit * limit) & Lanes::firstLanes(end - j);
+                Lanes::appendSlots(near, j, work.found + found);
+                found += static_cast<std::uint32_t>(__builtin_popcount(Lanes::bitsOf(near)));
             }
         }
         work.foundCount = found;

@@ -65,6 +65,8 @@ struct ScalarLanes {
     }
     static Number largest(Number v) { return v; }
     static std::uint32_t bitsOf(bool mask) { return mask; }
+    static bool firstLanes(std::uint32_t) { return true; }
+    static void appendSlots(bool, std::uint32_t slot, std::uint32_t* out) { *out = slot; }
     static void append(bool, const Vec<Number>& apart, const std::uint32_t* packed,
                        std::uint32_t p, TouchingPairs<Number>& out, std::uint32_t at)
     {

@@ -197,6 +197,17 @@ struct SimdLanes {
     {
         return HWY_NAMESPACE::bitsOf(mask);
     }
+    static HWY_INLINE LaneMask firstLanes(std::uint32_t n)
+    {
+        return {hn::FirstN(Lanes32(), n)};
+    }
+    static HWY_INLINE void appendSlots(LaneMask mask, std::uint32_t slot, std::uint32_t* out)
+    {
+        const Lanes32 d;
+        const hn::RebindToUnsigned<Lanes32> du;
+        const LanePacker pack(mask);
+        hn::StoreU(hn::BitCast(du, pack(hn::BitCast(d, hn::Iota(du, slot)))), du, out);
+    }
     static HWY_INLINE void append(LaneMask mask, const Vec<LaneFloat>& apart,
                                   const std::uint32_t* packed, std::uint32_t p,
                                   TouchingPairs<float>& out, std::uint32_t at)

@@ -7,12 +7,11 @@
 
 namespace sandflow {
 
-/// What is known of a mobile grain besides its record; touched only when lists are rebuilt or
-/// grains are judged, never in a step.
+/// What is known of a mobile grain besides its record, where grains are judged (surface flow);
+/// touched only when lists are rebuilt or grains are judged, never in a step.
 struct GrainMemory {
     double anchorX = 0, anchorY = 0, anchorZ = 0;  ///< m, where it was when it last counted as moved
     float stillTime = 0;                           ///< s since then
-    std::uint32_t row = 0xFFFFFFFFu;               ///< its row in the contact book, if it has one
 };
 
 /// What one observed step says of a mobile grain.
@@ -22,15 +21,50 @@ struct GrainLoad {
     float load = 0;       ///< N, sum of normal forces
 };
 
+/// Of grains that have no row in the contact book.
+inline constexpr std::uint32_t kNoRow = 0xFFFFFFFFu;
+
 /// The grains that are integrated, in cell order. Two copies of the records, so that one step reads
 /// the old and writes the new and needs a single barrier.
 template <class Real>
 struct MobileGrains {
     std::vector<GrainRecord<Real>> record, next;
-    std::vector<GrainMemory> memory;
-    std::vector<GrainLoad> load;   ///< filled by observed steps only
+    std::vector<std::uint32_t> row;    ///< in the contact book, or kNoRow
+    std::vector<GrainMemory> memory;   ///< empty unless grains are judged
+    std::vector<GrainLoad> load;       ///< filled by observed steps only
+    bool judged = true;                ///< set before the first grain comes
 
     std::size_t size() const { return record.size(); }
+
+    void add(const GrainRecord<Real>& grain)
+    {
+        record.push_back(grain);
+        row.push_back(kNoRow);
+        if (judged) {
+            memory.push_back({grain.x, grain.y, grain.z, 0.0f});
+        }
+    }
+
+    /// Keeps those for which keep(index) is true, in their order.
+    template <class Keep>
+    void removeUnless(Keep keep)
+    {
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < record.size(); ++k) {
+            if (!keep(k)) {
+                continue;
+            }
+            record[kept] = record[k];
+            row[kept] = row[k];
+            if (judged) {
+                memory[kept] = memory[k];
+            }
+            ++kept;
+        }
+        record.resize(kept);
+        row.resize(kept);
+        memory.resize(judged ? kept : 0);
+    }
 };
 
 }  // namespace sandflow

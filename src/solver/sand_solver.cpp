@@ -37,6 +37,7 @@ DemSetup demSetup(const Scene& scene, const RunPlan& plan)
     setup.gravity = scene.gravity;
     setup.primitives = allPrimitives(scene);
     setup.seed = scene.seed;
+    setup.judged = scene.mode == Mode::surfaceFlow;
     return setup;
 }
 
@@ -323,17 +324,9 @@ void SandSolver<Real>::dropExited()
 {
     MobileGrains<Real>& mobile = dem_.mobile();
     const Eigen::AlignedBox3d domain(scene_.domain.min, scene_.domain.max);
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < mobile.size(); ++k) {
-        if (domain.contains(positionOf(mobile.record[k]))) {
-            mobile.record[kept] = mobile.record[k];
-            mobile.memory[kept] = mobile.memory[k];
-            ++kept;
-        }
-    }
-    exited_ += mobile.size() - kept;
-    mobile.record.resize(kept);
-    mobile.memory.resize(kept);
+    exited_ += mobile.size();
+    mobile.removeUnless([&](std::size_t k) { return domain.contains(positionOf(mobile.record[k])); });
+    exited_ -= mobile.size();
 }
 
 /// When a solid appears or vanishes the columns over it are cut anew, and all sand is free again:

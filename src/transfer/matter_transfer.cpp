@@ -106,13 +106,9 @@ TransferReport MatterTransfer<Real>::apply(const ColumnGrid& columns, Dem<Real>&
     });
     // Deposition: grains at rest below h join the interface; above it they may sleep.
     MobileGrains<Real>& mobile = dem.mobile();
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < mobile.size(); ++k) {
+    mobile.removeUnless([&](std::size_t k) {
         if (mobileFate_[k] == Fate::stays) {
-            mobile.record[kept] = mobile.record[k];
-            mobile.memory[kept] = mobile.memory[k];
-            ++kept;
-            continue;
+            return true;
         }
         const GrainRecord<Real>& g = mobile.record[k];
         const bool sleeps = mobileFate_[k] == Fate::sleeps;
@@ -120,10 +116,10 @@ TransferReport MatterTransfer<Real>::apply(const ColumnGrid& columns, Dem<Real>&
         report.trappedMomentum += speedOf(g) / static_cast<double>(g.inverseMass);
         FrozenInfo info;
         info.state = sleeps ? GrainState::asleep : GrainState::interface;
+        info.row = mobile.row[k];
         dem.frozen().add(dem.makeRecord(positionOf(g), static_cast<double>(g.radius), g.id), info);
-    }
-    mobile.record.resize(kept);
-    mobile.memory.resize(kept);
+        return false;
+    });
     for (const GrainRecord<Real>& g : freed_) {
         dem.addMobile(positionOf(g), Vec3::Zero(), Vec3::Zero(), static_cast<double>(g.radius),
                       g.id);

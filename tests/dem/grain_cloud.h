@@ -89,8 +89,7 @@ inline Cloud makeCloud(const CloudSpec& spec)
         const Vec3 v = speed * Vec3(vx, vy, vz).normalized();
         g.vx = static_cast<float>(v.x()), g.vy = static_cast<float>(v.y());
         g.vz = static_cast<float>(v.z());
-        cloud.mobile.record.push_back(g);
-        cloud.mobile.memory.push_back({});
+        cloud.mobile.add(g);
     }
     for (std::size_t n = 0; n < spec.frozen; ++n) {
         cloud.frozen.add(makeRecord(id++), {});

@@ -38,9 +38,8 @@ struct KernelRig {
 
     GrainRecord<Real>& add(const Vec3& at, double radius, double density = 2600.0)
     {
-        mobile.memory.emplace_back();
-        return mobile.record.emplace_back(
-            makeRecord(at, radius, density, static_cast<std::uint32_t>(mobile.record.size())));
+        mobile.add(makeRecord(at, radius, density, static_cast<std::uint32_t>(mobile.size())));
+        return mobile.record.back();
     }
 
     void addFrozen(const Vec3& at, double radius, std::uint32_t id, float wakeForce)
@@ -54,7 +53,7 @@ struct KernelRig {
     {
         book.record(lists.chunks(), mobile.record, frozen.records(), boundary.records());
         for (std::uint32_t k = 0; k < mobile.size(); ++k) {
-            mobile.memory[k].row = k;
+            mobile.row[k] = k;
         }
         lists.rebuild(24.0 * dt, mobile, frozen, boundary, walls, 0.0, book,
                       [](const SortedCells&) {});

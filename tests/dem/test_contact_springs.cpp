@@ -193,20 +193,17 @@ TEST(ContactSprings, OutliveFreezingAndRelease)
     // Every eleventh mobile grain freezes.
     dem.recordContacts();
     MobileGrains<float>& mobile = dem.mobile();
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < mobile.size(); ++k) {
-        const GrainRecord<float> g = mobile.record[k];
-        if (g.id % 11 == 0) {
-            dem.frozen().add(
-                dem.makeRecord(Vec3(g.x, g.y, g.z), static_cast<double>(g.radius), g.id), {});
-            continue;
+    mobile.removeUnless([&](std::size_t k) {
+        const GrainRecord<float>& g = mobile.record[k];
+        if (g.id % 11 != 0) {
+            return true;
         }
-        mobile.record[kept] = g;
-        mobile.memory[kept] = mobile.memory[k];
-        ++kept;
-    }
-    mobile.record.resize(kept);
-    mobile.memory.resize(kept);
+        FrozenInfo info;
+        info.row = mobile.row[k];
+        dem.frozen().add(dem.makeRecord(Vec3(g.x, g.y, g.z), static_cast<double>(g.radius), g.id),
+                         info);
+        return false;
+    });
     dem.rebuild(0.0, kStep);
     const auto isFrozen = [](std::uint32_t id) { return id % 11 == 0 || id % 7 == 3; };
     std::map<Pair, Springs> expected;

@@ -161,8 +161,7 @@ Dem<float> makeSleeper(NormalLaw law, double depth = 1.0)
     Vec3 where = positionOf(dem.mobile().record[0]);
     where.z() = hollowHeight() + depth * (where.z() - hollowHeight());
     dem.recordContacts();
-    dem.mobile().record.clear();
-    dem.mobile().memory.clear();
+    dem.mobile().removeUnless([](std::size_t) { return false; });
     addFrozen(dem, where, 0, GrainState::asleep);
     dem.rebuild(0.0, kStep);
     judgeNewlyFrozen(rules, dem);
@@ -222,8 +221,7 @@ TEST_P(Sleepers, WakeWhenHitThoughTheListsWereMadeAnewSince)
     dem.rebuild(0.0, kStep);
     advance(dem, 0.002);
     dem.recordContacts();
-    dem.mobile().record.clear();
-    dem.mobile().memory.clear();
+    dem.mobile().removeUnless([](std::size_t) { return false; });
     dem.rebuild(0.0, kStep);
     markWoken(RestRules(), dem);
     EXPECT_TRUE(wakes(dem));
