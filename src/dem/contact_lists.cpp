@@ -87,6 +87,7 @@ void ContactLists<Real>::spreadSearchRadius()
     cellReach_.assign(cells.size(), 0.0f);
     cellOfSlot_.resize(search_.size());
     strays_.clear();
+    appended_ = 0;
     const auto count = static_cast<std::int64_t>(cells.size());
     float longest = 0.0f;
 #pragma omp parallel for schedule(static) reduction(max : longest)
@@ -375,6 +376,20 @@ void ContactLists<Real>::followStray(std::uint32_t slot, const MobileGrains<Real
     }
     strays_.add(slot, ball);
     giveBall(slot, ball, mobile.record[slot].radius);
+}
+
+template <class Real>
+void ContactLists<Real>::openSlot(std::uint32_t slot, const GrainRecord<Real>& grain)
+{
+    if (slot % kChunkSize == 0) {
+        chunks_.emplace_back();
+        origins_.emplace_back(grain.x, grain.y, grain.z);
+    }
+    ++chunks_[slot / kChunkSize].grainCount;
+    balls_.emplace_back();
+    // Not in the cells: what finds it are the stray balls. Its first ball meets nobody.
+    constexpr double kNowhere = 1e100;
+    search_.push_back({kNowhere, kNowhere, kNowhere, 0.0f, grain.id});
 }
 
 template <class Real>

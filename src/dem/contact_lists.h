@@ -65,6 +65,20 @@ public:
                     viewOf(boundary, boundaryColumns_), walls, time);
     }
 
+    /// A grain that came in after the lists were made, the last of `mobile`: gets a slot behind the
+    /// others and the pairs that its ball brings. So a jet does not make everybody's lists anew with
+    /// every layer.
+    template <class Info, class BoundaryInfo>
+    void append(const MobileGrains<Real>& mobile, const FixedGrains<Real, Info>& frozen,
+                const FixedGrains<Real, BoundaryInfo>& boundary, std::span<const Primitive> walls,
+                double time)
+    {
+        const auto slot = static_cast<std::uint32_t>(mobile.size() - 1);
+        openSlot(slot, mobile.record[slot]);
+        followStray(slot, mobile, frozen, boundary, walls, time);
+        ++appended_;
+    }
+
     /// The ball that followStray would give.
     SearchBall ballAhead(const GrainRecord<Real>& grain) const
     {
@@ -82,7 +96,7 @@ public:
     }
 
     /// Balls given by followStray since the rebuild.
-    std::size_t strayCount() const { return strays_.size(); }
+    std::size_t strayCount() const { return strays_.size() - appended_; }
 
     std::vector<ChunkContacts<Real>>& chunks() { return chunks_; }
     const std::vector<ChunkContacts<Real>>& chunks() const { return chunks_; }
@@ -165,6 +179,7 @@ private:
 
     void followStray(std::uint32_t slot, const MobileGrains<Real>& mobile, const FixedView& frozen,
                      const FixedView& boundary, std::span<const Primitive> walls, double time);
+    void openSlot(std::uint32_t slot, const GrainRecord<Real>& grain);
     void appendPair(std::uint32_t a, std::uint32_t b);
     void appendForeign(std::uint32_t slot, PartnerSource source, std::uint32_t index);
 
@@ -176,6 +191,7 @@ private:
     BallColumns columns_;  ///< of search_
     FixedColumns frozenColumns_, boundaryColumns_;
     StrayBalls strays_;               ///< further balls; a grain may be in any of its own
+    std::size_t appended_ = 0;        ///< of them, the first balls of grains that came in later
     std::vector<std::uint32_t> strayPartners_;
     double longestReach_ = 0.0;       ///< m, over all cells
     std::vector<float> cellReach_;    ///< m, longest reach of the grains of each cell

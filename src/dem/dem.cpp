@@ -59,6 +59,10 @@ GrainRecord<Real> Dem<Real>::makeRecord(const Vec3& position, double radius, std
 template <class Real>
 void Dem<Real>::recordContacts()
 {
+    if (contactsRecorded_) {
+        return;
+    }
+    contactsRecorded_ = true;
     book_.record(lists_.chunks(), mobile_.record, frozen_.records(), boundary_.records());
     std::iota(mobile_.row.begin(), mobile_.row.end(), 0u);
     for (std::size_t k = 0; k < frozen_.size(); ++k) {
@@ -76,7 +80,6 @@ template <class Real>
 void Dem<Real>::addMobile(const Vec3& position, const Vec3& velocity, const Vec3& spin,
                           double radius, std::uint32_t id)
 {
-    SAND_CHECK(!listsHold_, "grain {} added without recordContacts()", id);
     GrainRecord<Real> g = makeRecord(position, radius, id);
     g.inverseMass = static_cast<Real>(1.0 / massOf(static_cast<double>(g.radius)));
     g.vx = static_cast<Real>(velocity.x());
@@ -86,11 +89,40 @@ void Dem<Real>::addMobile(const Vec3& position, const Vec3& velocity, const Vec3
     g.wy = static_cast<Real>(spin.y());
     g.wz = static_cast<Real>(spin.z());
     mobile_.add(g);
+    if (listsHold_) {
+        listNewcomer();
+    }
+}
+
+template <class Real>
+void Dem<Real>::listNewcomer()
+{
+    if (!hasRoomFor(lists_.ballAhead(mobile_.record.back()))) {
+        listsHold_ = false;
+        return;
+    }
+    lists_.append(mobile_, frozen_, boundary_, setup_.primitives, listTime_);
+    mobile_.next.resize(mobile_.size());
+    if (setup_.judged) {
+        mobile_.load.resize(mobile_.size());
+    }
+    reports_.resize(lists_.chunkCount());
+}
+
+/// False where the ball reaches ground that is not covered yet, or the grid does not.
+template <class Real>
+bool Dem<Real>::hasRoomFor(const SearchBall& ball) const
+{
+    const Vec3 centre(ball.x, ball.y, ball.z);
+    return lists_.cells().holds(centre) &&
+           isCovered(centre, static_cast<double>(ball.reach) + setup_.meanRadius);
 }
 
 template <class Real>
 void Dem<Real>::rebuild(double time, double dt)
 {
+    recordContacts();
+    contactsRecorded_ = false;
     lists_.rebuild(chooseHorizon(dt), mobile_, frozen_, boundary_, setup_.primitives, time,
                    book_, [&](const SortedCells& cells) { coverRoughSolids(cells, time); });
     mobile_.next.resize(mobile_.size());
@@ -227,10 +259,8 @@ void Dem<Real>::followStrays()
             if (lists_.isInBall(static_cast<std::uint32_t>(k), mobile_.record[k])) {
                 continue;
             }
-            const SearchBall ball = lists_.ballAhead(mobile_.record[k]);
             if (lists_.strayCount() >= most ||
-                !isCovered(Vec3(ball.x, ball.y, ball.z),
-                           static_cast<double>(ball.reach) + setup_.meanRadius)) {
+                !hasRoomFor(lists_.ballAhead(mobile_.record[k]))) {
                 listsHold_ = false;
                 return;
             }

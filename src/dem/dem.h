@@ -37,15 +37,17 @@ struct DemSetup {
 /// Step 3 of the method: soft spheres. Owns every grain that is computed or pushes: mobile, frozen
 /// (interface, asleep) and the particles of rough solids.
 ///
-/// Sets of grains change only between recordContacts() and rebuild(); steps are taken only while
-/// listsHold().
+/// Sets of grains change only between recordContacts() and rebuild(), but for mobile grains that come
+/// in; steps are taken only while listsHold().
 template <class Real>
 class Dem {
 public:
     explicit Dem(const DemSetup& setup);
 
-    /// Before any change of the sets: keeps the springs of all live contacts, by id.
+    /// Before any change of the sets: keeps the springs of all live contacts, by id, and ends the
+    /// lists. Nothing happens if that was done since the last rebuild.
     void recordContacts();
+    /// While the lists hold it is put into them as well; where that cannot be, they hold no longer.
     void addMobile(const Vec3& position, const Vec3& velocity, const Vec3& spin, double radius,
                    std::uint32_t id);
     /// Sorts, covers rough solids and lists contacts; afterwards listsHold().
@@ -83,6 +85,8 @@ public:
 private:
     double chooseHorizon(double dt) const;
     void followStrays();
+    void listNewcomer();
+    bool hasRoomFor(const SearchBall& ball) const;
     bool isCovered(const Vec3& centre, double range) const;
     void coverRoughSolids(const SortedCells& cells, double time);
 
@@ -105,6 +109,7 @@ private:
     std::uint32_t boundaryIds_ = 0;
 
     bool listsHold_ = false;
+    bool contactsRecorded_ = false;  ///< since the last rebuild
     double listTime_ = 0.0;  ///< s, for which the lists were made
     std::uint64_t strays_ = 0;
     double deepestOverlap_ = 0.0, latestOverlap_ = 0.0, fastestSpeed_ = 0.0;

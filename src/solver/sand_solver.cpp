@@ -216,21 +216,23 @@ void SandSolver<Real>::settleNewBeds()
     }
 }
 
-/// Step 3: soft spheres until `end`. The lists are made anew when a grain leaves its ball or grains
-/// come in.
+/// Step 3: soft spheres until `end`. The lists are made anew when too many grains have left their
+/// balls; grains that come in are put into them.
 template <class Real>
 void SandSolver<Real>::moveGrains(double end, FrameReport& report)
 {
     bool retry = !waiting_.empty();
     while (time_ < end - 1e-12) {
         if (retry || nextEmission() <= time_ || !dem_.listsHold()) {
-            {
-                StageClock clock(report.seconds.emit);
+            StageClock clock(report.seconds.emit);
+            if (!dem_.listsHold()) {
                 dem_.recordContacts();
                 dropExited();
-                admitNewGrains();
-                retry = false;
             }
+            admitNewGrains();
+            retry = false;
+        }
+        if (!dem_.listsHold()) {
             rebuildLists(report);
         }
         if (dem_.mobile().size() == 0) {  // nothing moves: on to the next emission
@@ -300,6 +302,7 @@ void SandSolver<Real>::admitNewGrains()
         for (const NewGrain& g : admitted_) {
             SAND_CHECK(nextId_ < kFirstBoundaryId, "out of grain ids");
             if (g.settled && scene_.mode == Mode::surfaceFlow) {
+                dem_.recordContacts();
                 dem_.frozen().add(dem_.makeRecord(g.position, g.radius, nextId_++), {});
                 newBeds_ = true;
             } else {

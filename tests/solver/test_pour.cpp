@@ -85,9 +85,10 @@ TEST_P(Pours, EndAsAHeapAtRest)
     // Mean speed of all grains below 5 mm/s.
     const double mass = 1200 * 2600.0 * 4.0 / 3.0 * kPi * std::pow(0.005, 3);
     EXPECT_LT(last.kineticEnergy, 0.5 * mass * 0.005 * 0.005);
-    // Under their weight alone grains overlap by 0.01 r. A grain wedged between fixed ones keeps what
-    // it was pressed to: up to the limit stated for grains that are set free.
-    EXPECT_LT(deepestPair(s), GetParam() == Mode::dem ? 0.05 : 0.13);
+    // Under their weight alone grains overlap by 0.01 r. A wedged grain keeps what it was pressed to:
+    // where all move 0.06 r is seen in a few pairs of heaps of 20,000 grains, between fixed ones up
+    // to the limit stated for grains that are set free.
+    EXPECT_LT(deepestPair(s), GetParam() == Mode::dem ? 0.08 : 0.13);
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, Pours, ::testing::Values(Mode::surfaceFlow, Mode::dem));
