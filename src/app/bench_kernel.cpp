@@ -71,6 +71,7 @@ KernelBenchResult benchWith(const Bed& bed, const KernelBenchOptions& options)
     for (int repeat = 0; repeat < options.repeats; ++repeat) {
         Dem<Real> dem(makeBenchSetup(options.rolling));
         dem.recordContacts();
+        dem.mobile().reserve(bed.centre.size());
         std::uint32_t id = 0;
         for (const Vec3& centre : bed.centre) {
             dem.addMobile(centre, Vec3::Zero(), Vec3::Zero(), bench::kRadius, ++id);

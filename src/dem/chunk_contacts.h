@@ -106,7 +106,7 @@ struct ChunkContacts {
     void clearAndFit()
     {
         const auto fit = [](auto& list) {
-            const std::size_t room = list.size() + list.size() / 16 + 16;
+            const std::size_t room = list.size() + list.size() / 32 + 16;
             list.clear();
             if (list.capacity() < room || list.capacity() > room + room / 4) {
                 list.shrink_to_fit();
@@ -118,20 +118,30 @@ struct ChunkContacts {
         ownLive.clear(), foreignLive.clear(), walls.clear(), wallHistory.clear();
     }
 
+    /// Lists that are full grow by an eighth, not to twice their size.
+    template <class Value>
+    static void push(std::vector<Value>& list, const Value& value)
+    {
+        if (list.size() == list.capacity()) {
+            list.reserve(list.size() + list.size() / 8 + 16);
+        }
+        list.push_back(value);
+    }
+
     void appendOwn(std::uint32_t lower, std::uint32_t higher, bool live,
                    const PairHistory<Real>& springs)
     {
-        own.push_back(own_pair::pack(lower, higher));
+        push(own, own_pair::pack(lower, higher));
         ownLive.push_back(live);
-        ownHistory.push_back(springs);
+        push(ownHistory, springs);
     }
     void appendForeign(std::uint32_t slot, PartnerSource source, std::uint32_t index, bool live,
                        const PairHistory<Real>& springs)
     {
-        foreign.push_back(partner::pack(source, index));
-        foreignSlot.push_back(slot_offset::of(slot));
+        push(foreign, partner::pack(source, index));
+        push(foreignSlot, slot_offset::of(slot));
         foreignLive.push_back(live);
-        foreignHistory.push_back(springs);
+        push(foreignHistory, springs);
     }
 
     std::size_t bytes() const

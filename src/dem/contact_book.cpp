@@ -68,8 +68,8 @@ void ContactBook<Real>::record(std::span<const ChunkContacts<Real>> chunks,
     }
     if (const std::size_t count = chunkBegin_.back(); count > history_.capacity()) {
         partner_.clear(), history_.clear();  // nothing to be copied
-        partner_.reserve(count + count / 16);
-        history_.reserve(count + count / 16);
+        partner_.reserve(count + count / 32);
+        history_.reserve(count + count / 32);
     }
     partner_.resize(chunkBegin_.back());
     history_.resize(chunkBegin_.back());

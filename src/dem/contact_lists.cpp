@@ -29,8 +29,6 @@ void ContactLists<Real>::sortMobile(double horizon, MobileGrains<Real>& mobile)
     mobile.next.resize(mobile.size());
     rowScratch_.resize(mobile.size());
     memoryScratch_.resize(mobile.memory.size());
-    search_.resize(mobile.size());
-    columns_.resize(mobile.size());
     const std::span<const std::uint32_t> order = cells_.order();
 #pragma omp parallel for schedule(static)
     for (std::int64_t k = 0; k < n; ++k) {
@@ -39,8 +37,6 @@ void ContactLists<Real>::sortMobile(double horizon, MobileGrains<Real>& mobile)
         if (mobile.judged) {
             memoryScratch_[k] = mobile.memory[order[k]];
         }
-        search_[k] = ballAhead(mobile.next[k], horizon);
-        columns_.set(k, search_[k]);
     }
     mobile.record.swap(mobile.next);
     mobile.row.swap(rowScratch_);
@@ -58,13 +54,17 @@ void ContactLists<Real>::placeBalls(const MobileGrains<Real>& mobile)
     chunks_.resize(static_cast<std::size_t>(chunkCount));
     origins_.resize(static_cast<std::size_t>(chunkCount));
     balls_.resize(mobile.size());
+    columns_.resize(mobile.size());
 #pragma omp parallel for schedule(static)
     for (std::int64_t c = 0; c < chunkCount; ++c) {
         const std::size_t first = static_cast<std::size_t>(c) * kChunkSize;
         const std::size_t last = std::min<std::size_t>(first + kChunkSize, mobile.size());
-        origins_[c] = Vec3(search_[first].x, search_[first].y, search_[first].z);
+        const SearchBall central = ballAhead(mobile.record[first]);
+        origins_[c] = Vec3(central.x, central.y, central.z);
         for (std::size_t k = first; k < last; ++k) {
-            giveBall(static_cast<std::uint32_t>(k), search_[k], mobile.record[k].radius);
+            const auto slot = static_cast<std::uint32_t>(k);
+            giveBall(slot, ballAhead(mobile.record[k]), mobile.record[k].radius);
+            columns_.set(k, ballOf(slot, mobile));
         }
     }
 }
@@ -73,7 +73,7 @@ template <class Real>
 void ContactLists<Real>::giveBall(std::uint32_t slot, const SearchBall& ball, Real radius)
 {
     const Vec3f place = (Vec3(ball.x, ball.y, ball.z) - origins_[slot / kChunkSize]).cast<float>();
-    // The ball is left a little early rather than late when numbers round.
+    // Left a little early rather than late; see ballOf.
     balls_[slot] = {place.x(), place.y(), place.z(),
                     (ball.reach - static_cast<float>(radius)) * 0.9999f};
 }
@@ -85,22 +85,24 @@ void ContactLists<Real>::spreadSearchRadius()
     const std::span<const SortedCells::Cell> cells = cells_.cells();
     searchRadius_.assign(cells.size(), 1);
     cellReach_.assign(cells.size(), 0.0f);
-    cellOfSlot_.resize(search_.size());
+    cellOfSlot_.resize(balls_.size());
     strays_.clear();
-    appended_ = 0;
+    strayCount_ = 0;
     const auto count = static_cast<std::int64_t>(cells.size());
     float longest = 0.0f;
 #pragma omp parallel for schedule(static) reduction(max : longest)
     for (std::int64_t c = 0; c < count; ++c) {
         for (std::uint32_t k = cells[c].begin; k < cells[c].end; ++k) {
-            cellReach_[c] = std::max(cellReach_[c], search_[k].reach);
+            cellReach_[c] = std::max(cellReach_[c], columns_.reach[k]);
             cellOfSlot_[k] = static_cast<std::uint32_t>(c);
         }
         longest = std::max(longest, cellReach_[c]);
     }
     longestReach_ = static_cast<double>(longest);
     const auto radiusFor = [&](float reach) {
-        return static_cast<int>(std::ceil(2.0 * static_cast<double>(reach) / cells_.cellSize()));
+        // Centres may have rounded across the border of a cell.
+        return static_cast<int>(
+            std::ceil(2.0001 * static_cast<double>(reach) / cells_.cellSize()));
     };
     SAND_CHECK(radiusFor(longest) < 100, "a grain needs {} cells of search: it is far too fast",
                radiusFor(longest));
@@ -219,7 +221,7 @@ void ContactLists<Real>::searchChunk(std::uint32_t chunk, const MobileGrains<Rea
             currentCell = cellOfSlot_[i];
             findSurroundings(currentCell, first, frozen, boundary, near);
         }
-        const SearchBall& ball = search_[i];
+        const SearchBall ball = ballOf(i, mobile);
         const std::uint32_t row = mobile.row[i];
         const std::uint32_t slot = i - first;
         const auto find = [&](const BallColumns& columns, const std::vector<SlotRange>& ranges) {
@@ -242,7 +244,7 @@ void ContactLists<Real>::searchChunk(std::uint32_t chunk, const MobileGrains<Rea
         PairHistory<Real> springs;
 
         for (const std::uint32_t j : find(columns_, near.mobile)) {
-            const SearchBall& other = search_[j];
+            const SearchBall other = ballOf(j, mobile);
             if ((j <= i && j >= first) || !ball.meets(other)) {
                 continue;
             }
@@ -286,12 +288,13 @@ void ContactLists<Real>::searchWalls(std::uint32_t chunk, const MobileGrains<Rea
         std::min<std::uint32_t>(first + kChunkSize, static_cast<std::uint32_t>(mobile.size()));
     // A ball about the whole chunk tells at once which walls are out of its reach.
     const auto centreOf = [&](std::uint32_t i) {
-        return Vec3(search_[i].x, search_[i].y, search_[i].z);
+        const SearchBall ball = ballOf(i, mobile);
+        return Vec3(ball.x, ball.y, ball.z);
     };
     double chunkReach = 0.0;
     for (std::uint32_t i = first; i < last; ++i) {
         chunkReach = std::max(chunkReach, (centreOf(i) - origins_[chunk]).norm() +
-                                              static_cast<double>(search_[i].reach));
+                                              static_cast<double>(columns_.reach[i]));
     }
     for (std::uint32_t w = 0; w < walls.size(); ++w) {
         if (walls[w].rough || !walls[w].existsAt(time) ||
@@ -300,7 +303,7 @@ void ContactLists<Real>::searchWalls(std::uint32_t chunk, const MobileGrains<Rea
         }
         for (std::uint32_t i = first; i < last; ++i) {
             if (nearestSurface(walls[w], centreOf(i)).distance <
-                static_cast<double>(search_[i].reach)) {
+                static_cast<double>(columns_.reach[i])) {
                 const auto* springs = book.find(mobile.row[i], kFirstWallId + w);
                 out.walls.push_back({static_cast<std::uint16_t>(i - first), springs != nullptr, w});
                 out.wallHistory.push_back(springs ? *springs : PairHistory<Real>{});
@@ -316,11 +319,17 @@ void ContactLists<Real>::followStray(std::uint32_t slot, const MobileGrains<Real
                                      const FixedView& frozen, const FixedView& boundary,
                                      std::span<const Primitive> walls, double time)
 {
-    const SearchBall ball = ballAhead(mobile.record[slot]);
+    const bool hasOlder = strays_.anyOf(slot, [](const SearchBall&) { return true; });
+    const bool isNew = cameLater(slot) && !hasOlder;
+    strayCount_ += isNew ? 0 : 1;
+    if (!isNew && !hasOlder) {
+        strays_.add(slot, ballOf(slot, mobile));
+    }
+    giveBall(slot, ballAhead(mobile.record[slot]), mobile.record[slot].radius);
+    const SearchBall ball = ballOf(slot, mobile);
     const Vec3 centre(ball.x, ball.y, ball.z);
     const auto metBefore = [&](const SearchBall& other) {
-        return search_[slot].meets(other) ||
-               strays_.anyOf(slot, [&](const SearchBall& older) { return older.meets(other); });
+        return strays_.anyOf(slot, [&](const SearchBall& older) { return older.meets(other); });
     };
 
     // Mobile partners: by their first balls, which are in the cells, and by later ones.
@@ -333,7 +342,7 @@ void ContactLists<Real>::followStray(std::uint32_t slot, const MobileGrains<Real
     const CellIndex at = cells_.cellOf(centre);
     cells_.visitNear(at, cellsAway(longestReach_), [&](const SortedCells::Cell& cell) {
         for (std::uint32_t j = cell.begin; j < cell.end; ++j) {
-            if (ball.meets(search_[j])) {
+            if (ball.meets(ballOf(j, mobile))) {
                 partners.push_back(j);
             }
         }
@@ -342,7 +351,7 @@ void ContactLists<Real>::followStray(std::uint32_t slot, const MobileGrains<Real
     std::sort(partners.begin(), partners.end());
     partners.erase(std::unique(partners.begin(), partners.end()), partners.end());
     for (const std::uint32_t j : partners) {
-        if (j != slot && !metBefore(search_[j]) && !strays_.anyOf(j, metBefore)) {
+        if (j != slot && !metBefore(ballOf(j, mobile)) && !strays_.anyOf(j, metBefore)) {
             appendPair(slot, j);
         }
     }
@@ -369,13 +378,12 @@ void ContactLists<Real>::followStray(std::uint32_t slot, const MobileGrains<Real
             return nearestSurface(walls[w], Vec3(b.x, b.y, b.z)).distance <
                    static_cast<double>(b.reach);
         };
-        if (reaches(ball) && !reaches(search_[slot]) && !strays_.anyOf(slot, reaches)) {
+        if (reaches(ball) && !strays_.anyOf(slot, reaches)) {
             chunk.walls.push_back({static_cast<std::uint16_t>(slot % kChunkSize), false, w});
             chunk.wallHistory.push_back({});
         }
     }
     strays_.add(slot, ball);
-    giveBall(slot, ball, mobile.record[slot].radius);
 }
 
 template <class Real>
@@ -386,10 +394,7 @@ void ContactLists<Real>::openSlot(std::uint32_t slot, const GrainRecord<Real>& g
         origins_.emplace_back(grain.x, grain.y, grain.z);
     }
     ++chunks_[slot / kChunkSize].grainCount;
-    balls_.emplace_back();
-    // Not in the cells: what finds it are the stray balls. Its first ball meets nobody.
-    constexpr double kNowhere = 1e100;
-    search_.push_back({kNowhere, kNowhere, kNowhere, 0.0f, grain.id});
+    balls_.emplace_back();  // it is not in the cells: what finds it are the stray balls
 }
 
 template <class Real>
@@ -416,7 +421,6 @@ std::size_t ContactLists<Real>::bytes() const
 {
     std::size_t sum = balls_.capacity() * sizeof(Ball) + columns_.bytes() +
                       frozenColumns_.balls.bytes() + boundaryColumns_.balls.bytes() +
-                      search_.capacity() * sizeof(SearchBall) +
                       (cellOfSlot_.capacity() + rowScratch_.capacity()) * sizeof(std::uint32_t) +
                       memoryScratch_.capacity() * sizeof(GrainMemory) + cells_.bytes();
     for (const ChunkContacts<Real>& chunk : chunks_) {

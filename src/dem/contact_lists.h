@@ -76,7 +76,6 @@ public:
         const auto slot = static_cast<std::uint32_t>(mobile.size() - 1);
         openSlot(slot, mobile.record[slot]);
         followStray(slot, mobile, frozen, boundary, walls, time);
-        ++appended_;
     }
 
     /// The ball that followStray would give.
@@ -95,8 +94,8 @@ public:
         return dx * dx + dy * dy + dz * dz <= ball.reach * ball.reach;
     }
 
-    /// Balls given by followStray since the rebuild.
-    std::size_t strayCount() const { return strays_.size() - appended_; }
+    /// Balls given since the rebuild to grains that had left theirs.
+    std::size_t strayCount() const { return strayCount_; }
 
     std::vector<ChunkContacts<Real>>& chunks() { return chunks_; }
     const std::vector<ChunkContacts<Real>>& chunks() const { return chunks_; }
@@ -164,6 +163,18 @@ private:
                 grain.id};
     }
     void giveBall(std::uint32_t slot, const SearchBall& ball, Real radius);
+
+    /// The ball that a grain has now, a little wider than the kernel knows it: whatever rounds there,
+    /// the grain is seen to leave it in time.
+    SearchBall ballOf(std::uint32_t slot, const MobileGrains<Real>& mobile) const
+    {
+        const Ball& ball = balls_[slot];
+        const Vec3& origin = origins_[slot / kChunkSize];
+        const GrainRecord<Real>& g = mobile.record[slot];
+        return {origin.x() + static_cast<double>(ball.x), origin.y() + static_cast<double>(ball.y),
+                origin.z() + static_cast<double>(ball.z),
+                1.0002f * ball.reach + static_cast<float>(g.radius), g.id};
+    }
     void sortMobile(double horizon, MobileGrains<Real>& mobile);
     void placeBalls(const MobileGrains<Real>& mobile);
     void spreadSearchRadius();
@@ -180,6 +191,7 @@ private:
     void followStray(std::uint32_t slot, const MobileGrains<Real>& mobile, const FixedView& frozen,
                      const FixedView& boundary, std::span<const Primitive> walls, double time);
     void openSlot(std::uint32_t slot, const GrainRecord<Real>& grain);
+    bool cameLater(std::uint32_t slot) const { return slot >= cells_.order().size(); }
     void appendPair(std::uint32_t a, std::uint32_t b);
     void appendForeign(std::uint32_t slot, PartnerSource source, std::uint32_t index);
 
@@ -187,11 +199,10 @@ private:
     FindNear findNear_;
     double horizon_ = 0.0;  ///< s, T of these lists
     SortedCells cells_;
-    std::vector<SearchBall> search_;
-    BallColumns columns_;  ///< of search_
+    BallColumns columns_;  ///< of the balls of mobile grains
     FixedColumns frozenColumns_, boundaryColumns_;
-    StrayBalls strays_;               ///< further balls; a grain may be in any of its own
-    std::size_t appended_ = 0;        ///< of them, the first balls of grains that came in later
+    StrayBalls strays_;               ///< all balls of grains that had several, or came in later
+    std::size_t strayCount_ = 0;
     std::vector<std::uint32_t> strayPartners_;
     double longestReach_ = 0.0;       ///< m, over all cells
     std::vector<float> cellReach_;    ///< m, longest reach of the grains of each cell

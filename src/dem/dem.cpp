@@ -311,7 +311,7 @@ std::size_t Dem<Real>::bytes() const
            mobile_.row.capacity() * sizeof(std::uint32_t) +
            mobile_.memory.capacity() * sizeof(GrainMemory) +
            mobile_.load.capacity() * sizeof(GrainLoad) + lists_.bytes() + book_.bytes() +
-           (frozen_.size() + boundary_.size()) * sizeof(GrainRecord<Real>);
+           frozen_.bytes() + boundary_.bytes();
 }
 
 template class Dem<float>;

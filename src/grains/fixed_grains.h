@@ -66,6 +66,11 @@ public:
     std::uint64_t version() const { return version_; }
 
     std::size_t size() const { return record_.size(); }
+    std::size_t bytes() const
+    {
+        return (record_.capacity() + recordScratch_.capacity()) * sizeof(GrainRecord<Real>) +
+               (info_.capacity() + infoScratch_.capacity()) * sizeof(Info) + cells_.bytes();
+    }
     const std::vector<GrainRecord<Real>>& records() const { return record_; }
     GrainRecord<Real>& record(std::size_t k) { return record_[k]; }  ///< not for moving it
     const GrainRecord<Real>& record(std::size_t k) const { return record_[k]; }

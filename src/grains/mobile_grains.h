@@ -36,6 +36,13 @@ struct MobileGrains {
 
     std::size_t size() const { return record.size(); }
 
+    /// Room for so many in all, and no more.
+    void reserve(std::size_t count)
+    {
+        record.reserve(count), next.reserve(count), row.reserve(count);
+        memory.reserve(judged ? count : 0);
+    }
+
     void add(const GrainRecord<Real>& grain)
     {
         record.push_back(grain);

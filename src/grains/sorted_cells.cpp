@@ -1,8 +1,5 @@
 #include "grains/sorted_cells.h"
 
-#include <bit>
-#include <omp.h>
-
 namespace sandflow {
 namespace {
 
@@ -56,28 +53,30 @@ std::uint64_t SortedCells::curveKey(const CellIndex& cell)
     return bits(cell.i) | bits(cell.j) << 1 | bits(cell.k) << 2;
 }
 
-void SortedCells::sortEntries()
+template <class Entry>
+void SortedCells::takeOrder(const std::vector<Entry>& entries, std::uint64_t shared)
 {
-    sortByKey();
-
-    order_.resize(entries_.size());
+    order_.resize(entries.size());
     cells_.clear();
-    std::uint64_t previous = ~std::uint64_t{0};
-    for (std::uint32_t e = 0; e < entries_.size(); ++e) {
-        order_[e] = entries_[e].point;
-        if (entries_[e].key != previous) {
-            previous = entries_[e].key;
+    for (std::uint32_t e = 0; e < entries.size(); ++e) {
+        order_[e] = entries[e].point;
+        if (e == 0 || entries[e].key != entries[e - 1].key) {
             if (!cells_.empty()) {
                 cells_.back().end = e;
             }
-            cells_.push_back({cellOfKey(previous), e, 0});
+            cells_.push_back({cellOfKey(shared | entries[e].key), e, 0});
         }
     }
     if (!cells_.empty()) {
-        cells_.back().end = static_cast<std::uint32_t>(entries_.size());
+        cells_.back().end = static_cast<std::uint32_t>(entries.size());
     }
     buildRows();
 }
+
+template void SortedCells::takeOrder(const std::vector<KeySorter<std::uint32_t>::Entry>&,
+                                     std::uint64_t);
+template void SortedCells::takeOrder(const std::vector<KeySorter<std::uint64_t>::Entry>&,
+                                     std::uint64_t);
 
 void SortedCells::buildRows()
 {
@@ -138,61 +137,6 @@ void SortedCells::tabulateRows()
     rowTable_.assign(size, kNoRowHere);
     for (std::uint32_t c = 0; c < cells_.size(); ++c) {
         rowTable_[tableIndex(cells_[c].index.j, cells_[c].index.k)] = rowOfCell_[c];
-    }
-}
-
-/// Stable radix sort from the lowest digit. Bits above the highest in which two keys differ need no
-/// pass: a heap a hundred cells wide takes two. A stable sort has one result, however many threads
-/// share it.
-void SortedCells::sortByKey()
-{
-    constexpr int kMostBits = 11;  // per pass: a count per digit fits the first-level cache
-    const auto n = static_cast<std::int64_t>(entries_.size());
-    const bool many = entries_.size() > kFewPoints;
-    std::uint64_t differ = 0;
-#pragma omp parallel for schedule(static) reduction(| : differ) if (many)
-    for (std::int64_t k = 0; k < n; ++k) {
-        differ |= entries_[k].key ^ entries_[0].key;
-    }
-    const int bits = 64 - std::countl_zero(differ);
-    if (bits == 0) {
-        return;
-    }
-    const int passes = (bits + kMostBits - 1) / kMostBits;
-    const int digitBits = (bits + passes - 1) / passes;
-    const std::size_t digits = std::size_t{1} << digitBits;
-    const std::int64_t blocks = many ? omp_get_max_threads() : 1;
-    const auto blockBegin = [&](std::int64_t b) { return n * b / blocks; };
-
-    scratch_.resize(entries_.size());
-    digitCount_.resize(static_cast<std::size_t>(blocks) * digits);
-    for (int shift = 0; shift < bits; shift += digitBits) {
-        const auto digitOf = [&](const Entry& e) { return e.key >> shift & (digits - 1); };
-#pragma omp parallel for schedule(static, 1) if (many)
-        for (std::int64_t b = 0; b < blocks; ++b) {
-            std::uint32_t* count = digitCount_.data() + static_cast<std::size_t>(b) * digits;
-            std::fill(count, count + digits, 0);
-            for (std::int64_t k = blockBegin(b); k < blockBegin(b + 1); ++k) {
-                ++count[digitOf(entries_[k])];
-            }
-        }
-        std::uint32_t sum = 0;
-        for (std::size_t digit = 0; digit < digits; ++digit) {
-            for (std::int64_t b = 0; b < blocks; ++b) {
-                std::uint32_t& count = digitCount_[static_cast<std::size_t>(b) * digits + digit];
-                const std::uint32_t here = count;
-                count = sum;
-                sum += here;
-            }
-        }
-#pragma omp parallel for schedule(static, 1) if (many)
-        for (std::int64_t b = 0; b < blocks; ++b) {
-            std::uint32_t* place = digitCount_.data() + static_cast<std::size_t>(b) * digits;
-            for (std::int64_t k = blockBegin(b); k < blockBegin(b + 1); ++k) {
-                scratch_[place[digitOf(entries_[k])]++] = entries_[k];
-            }
-        }
-        entries_.swap(scratch_);
     }
 }
 

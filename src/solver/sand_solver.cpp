@@ -104,6 +104,9 @@ SandSolver<Real>::SandSolver(const Scene& scene)
     for (std::size_t e = 0; e < scene.emitters.size(); ++e) {
         emitters_.push_back(makeEmitter(scene, e));
     }
+    if (scene.mode == Mode::dem) {  // all will be mobile in the end
+        dem_.mobile().reserve(plan_.grains);
+    }
 }
 
 /// Steps 1 and 2 act once per window, step 3 as often as stability asks.

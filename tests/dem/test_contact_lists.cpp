@@ -73,14 +73,20 @@ int expectListsAreComplete(const Cloud& cloud, const std::vector<std::vector<Bal
             fixed.push_back({ballOf(g, true)});
         }
     }
-    // The reach of a pair and its distance are rounded differently here: a pair within 1e-12 m of
-    // the limit may go either way.
+    // The kernel's balls are a little tighter than asked for, the search's a little wider: a pair
+    // that close to the limit may go either way.
+    struct Gap {
+        double surely = 1e30, maybe = 1e30;  ///< m, negative if the pair must, may be listed
+    };
     const auto gapOf = [](const std::vector<Ball>& as, const std::vector<Ball>& bs) {
-        double least = 1e30;
+        Gap least;
         for (const Ball& a : as) {
             for (const Ball& b : bs) {
-                least = std::min(
-                    least, (a.centre - b.centre).norm() - a.reach - a.radius - b.reach - b.radius);
+                const double gap =
+                    (a.centre - b.centre).norm() - a.reach - a.radius - b.reach - b.radius;
+                const double slack = 3e-4 * (a.reach + b.reach) + 1e-8;
+                least.surely = std::min(least.surely, gap + slack);
+                least.maybe = std::min(least.maybe, gap - slack);
             }
         }
         return least;
@@ -94,24 +100,24 @@ int expectListsAreComplete(const Cloud& cloud, const std::vector<std::vector<Bal
     };
     for (std::size_t a = 0; a < mobile.size(); ++a) {
         for (std::size_t b = a + 1; b < mobile.size(); ++b) {
-            const double gap = gapOf(mobile[a], mobile[b]);
-            if (gap > 1e-12) {
+            const Gap gap = gapOf(mobile[a], mobile[b]);
+            if (gap.maybe > 0.0) {
                 continue;
             }
             farthest = std::max(farthest, cellsApart(mobile[a][0], mobile[b][0]));
             const Pair pair(mobile[a][0].id, mobile[b][0].id);
             const Pair turned(pair.second, pair.first);
             if (chunkOf[pair.first] == chunkOf[pair.second]) {
-                (gap > -1e-12 ? either : own).insert(pair);
+                (gap.surely > 0.0 ? either : own).insert(pair);
             } else {
-                (gap > -1e-12 ? either : foreign).insert(pair);
-                (gap > -1e-12 ? either : foreign).insert(turned);
+                (gap.surely > 0.0 ? either : foreign).insert(pair);
+                (gap.surely > 0.0 ? either : foreign).insert(turned);
             }
         }
         for (const std::vector<Ball>& b : fixed) {
-            const double gap = gapOf(mobile[a], b);
-            if (gap <= 1e-12) {
-                (gap > -1e-12 ? either : foreign).insert({mobile[a][0].id, b[0].id});
+            const Gap gap = gapOf(mobile[a], b);
+            if (gap.maybe <= 0.0) {
+                (gap.surely > 0.0 ? either : foreign).insert({mobile[a][0].id, b[0].id});
                 farthest = std::max(farthest, cellsApart(mobile[a][0], b[0]));
             }
         }
