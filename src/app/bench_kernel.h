@@ -8,6 +8,7 @@ struct KernelBenchOptions {
     int steps = 300;   ///< timed
     int warmup = 300;  ///< before them: the springs of a bed are not part of it and must form
     int repeats = 3;   ///< from the same start; the median counts
+    int busy = 0;      ///< processes that keep a processor busy each, in a second round of repeats
     bool rolling = true;
     bool real64 = false;
 };
@@ -27,6 +28,7 @@ struct KernelBenchResult {
     std::vector<KernelTiming> repeats;
     double mps = 0.0;  ///< rebuilds included; median
     double mpsLow = 0.0, mpsHigh = 0.0;
+    double mpsBusy = 0.0;  ///< beside busy processes, if that was asked for; median
     double mpsWithoutRebuilds = 0.0;  ///< of the repeat that gave the median
     std::uint64_t rebuilds = 0;
     double rebuildShare = 0.0;      ///< of the time

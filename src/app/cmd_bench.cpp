@@ -26,6 +26,9 @@ std::string formatJson(const KernelBenchResult& result, const BenchOptions& opti
     json.beginObject().key("kernel").beginObject();
     json.member("mps", result.mps).member("mps_without_rebuilds", result.mpsWithoutRebuilds);
     json.member("mps_low", result.mpsLow).member("mps_high", result.mpsHigh);
+    if (options.kernel.busy > 0) {
+        json.member("busy", options.kernel.busy).member("mps_busy", result.mpsBusy);
+    }
     json.member("threads", result.threads).member("target", kernelTargetName());
     json.member("precision", options.kernel.real64 ? "double" : "float");
     json.member("rolling", options.kernel.rolling);
@@ -54,6 +57,11 @@ std::string formatText(const KernelBenchResult& result, const BenchOptions& opti
         "{:.2f} to {:.2f})\n",
         result.mps, result.mpsWithoutRebuilds, result.repeats.size(), result.mpsLow,
         result.mpsHigh);
+    if (options.kernel.busy > 0) {
+        text += fmt::format("{:.2f} M particle-steps/s beside {} busy process{}: {:.2f} times slower\n",
+                            result.mpsBusy, options.kernel.busy, options.kernel.busy == 1 ? "" : "es",
+                            result.mps / result.mpsBusy);
+    }
     text += fmt::format("{} rebuilds, {:.1f} % of the time\n", result.rebuilds,
                         100.0 * result.rebuildShare);
     text += fmt::format("a grain has {:.2f} contacts, {:.2f} listed pairs, {:.0f} bytes\n",
@@ -101,6 +109,9 @@ void addBenchCommand(CLI::App& app, Action& action)
         ->check(CLI::Range(0, 1'000'000));
     kernel->add_option("--repeat", options->kernel.repeats, "Timings, median counts (default 3)")
         ->check(CLI::Range(1, 1000));
+    kernel->add_option("--busy", options->kernel.busy,
+                       "Time it beside so many busy processes as well")
+        ->check(CLI::Range(0, 1024));
     kernel->add_option("--threads", options->threads, "Threads (default: all processors)");
     kernel->add_option("--simd", options->simd,
                        "Kernel: auto, scalar, sse4, avx2, avx512 (same results)");

@@ -264,7 +264,7 @@ void ContactLists<Real>::searchChunk(std::uint32_t chunk, const MobileGrains<Rea
                 const SearchBall other = ballOfFixed(fixed.record[j]);
                 if (ball.meets(other)) {
                     const bool live =
-                        book.recall(row, ball.id, fixed.row[j], other.id, springs);
+                        book.recall(row, ball.id, fixed.rowOf(j), other.id, springs);
                     out.appendForeign(slot, source, j, live, springs);
                 }
             }

@@ -121,8 +121,8 @@ private:
         template <class Info>
         void follow(const FixedGrains<Real, Info>& fixed)
         {
-            row.assign(fixed.size(), kNoRow);
             if constexpr (requires(Info info) { info.row; }) {
+                row.resize(fixed.size());
                 for (std::size_t k = 0; k < fixed.size(); ++k) {
                     row[k] = fixed.info(k).row;
                 }
@@ -142,6 +142,8 @@ private:
         const SortedCells& cells;
         const BallColumns& balls;
         const std::vector<std::uint32_t>& row;
+
+        std::uint32_t rowOf(std::uint32_t k) const { return row.empty() ? kNoRow : row[k]; }
     };
     template <class Info>
     static FixedView viewOf(const FixedGrains<Real, Info>& fixed, const FixedColumns& columns)

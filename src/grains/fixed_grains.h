@@ -48,16 +48,17 @@ public:
         cells_.build(record_.size(), [&](std::size_t k) {
             return Vec3(record_[k].x, record_[k].y, record_[k].z);
         });
-        recordScratch_.resize(record_.size());
-        infoScratch_.resize(record_.size());
+        // Not kept: fixed grains change seldom, and there can be many.
+        std::vector<GrainRecord<Real>> sortedRecords(record_.size());
+        std::vector<Info> sortedInfos(record_.size());
         const auto n = static_cast<std::int64_t>(record_.size());
 #pragma omp parallel for schedule(static) if (n > 4096)
         for (std::int64_t k = 0; k < n; ++k) {
-            recordScratch_[k] = record_[cells_.order()[k]];
-            infoScratch_[k] = info_[cells_.order()[k]];
+            sortedRecords[k] = record_[cells_.order()[k]];
+            sortedInfos[k] = info_[cells_.order()[k]];
         }
-        record_.swap(recordScratch_);
-        info_.swap(infoScratch_);
+        record_.swap(sortedRecords);
+        info_.swap(sortedInfos);
         sorted_ = true;
         ++version_;
     }
@@ -68,8 +69,8 @@ public:
     std::size_t size() const { return record_.size(); }
     std::size_t bytes() const
     {
-        return (record_.capacity() + recordScratch_.capacity()) * sizeof(GrainRecord<Real>) +
-               (info_.capacity() + infoScratch_.capacity()) * sizeof(Info) + cells_.bytes();
+        return record_.capacity() * sizeof(GrainRecord<Real>) + info_.capacity() * sizeof(Info) +
+               cells_.bytes();
     }
     const std::vector<GrainRecord<Real>>& records() const { return record_; }
     GrainRecord<Real>& record(std::size_t k) { return record_[k]; }  ///< not for moving it
@@ -79,8 +80,8 @@ public:
     const SortedCells& cells() const { return cells_; }
 
 private:
-    std::vector<GrainRecord<Real>> record_, recordScratch_;
-    std::vector<Info> info_, infoScratch_;
+    std::vector<GrainRecord<Real>> record_;
+    std::vector<Info> info_;
     SortedCells cells_;
     bool sorted_ = true;
     std::uint64_t version_ = 0;

@@ -29,6 +29,16 @@ TEST_F(Bench, KernelReportsAsJson)
     EXPECT_LT(json.number("kernel.max_overlap_r"), 0.2);
 }
 
+TEST_F(Bench, BesideABusyProcessToo)
+{
+    const ProgramResult result =
+        call("bench kernel --grains 1000 --steps 20 --warmup 0 --repeat 1 --busy 1 --json");
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    const JsonScalars json(result.output);
+    EXPECT_EQ(json.number("kernel.busy"), 1);
+    EXPECT_GT(json.number("kernel.mps_busy"), 0.0);
+}
+
 TEST_F(Bench, BedFromAFileIsTheBedThatWasWritten)
 {
     const std::string sizes = " --steps 40 --warmup 0 --repeat 1 --threads 1 --json";
