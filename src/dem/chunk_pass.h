@@ -62,7 +62,9 @@ struct MotionWork {
     const ContactSum<Real>* sums;
     std::uint32_t count;
     float fastestSquared;        ///< m2/s2, out
-    bool leftBall, broke;        ///< out
+    std::uint16_t* left;         ///< out: slots of grains that left their balls; room for count
+    std::uint32_t leftCount;     ///< out
+    bool broke;                  ///< out
     std::uint32_t brokenGrain;   ///< slot within the chunk, out
 };
 

@@ -168,7 +168,8 @@ private:
 
     /// The ball that a grain has now, a little wider than the kernel knows it: whatever rounds there,
     /// the grain is seen to leave it in time.
-    SearchBall ballOf(std::uint32_t slot, const MobileGrains<Real>& mobile) const
+    [[gnu::always_inline]] SearchBall ballOf(std::uint32_t slot,
+                                             const MobileGrains<Real>& mobile) const
     {
         const Ball& ball = balls_[slot];
         const Vec3& origin = origins_[slot / kChunkSize];

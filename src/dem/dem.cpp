@@ -249,23 +249,15 @@ template <class Real>
 void Dem<Real>::followStrays()
 {
     const std::size_t most = 64 + mobile_.size() / 25;
-    for (std::size_t c = 0; c < reports_.size() && listsHold_; ++c) {
-        if (!reports_[c].leftBall) {
-            continue;
-        }
-        const std::size_t first = c * kChunkSize;
-        const std::size_t last = std::min(first + kChunkSize, mobile_.size());
-        for (std::size_t k = first; k < last && listsHold_; ++k) {
-            if (lists_.isInBall(static_cast<std::uint32_t>(k), mobile_.record[k])) {
-                continue;
-            }
+    for (std::size_t c = 0; c < reports_.size(); ++c) {
+        for (const std::uint16_t left : reports_[c].left) {
+            const auto slot = static_cast<std::uint32_t>(c * kChunkSize + left);
             if (lists_.strayCount() >= most ||
-                !hasRoomFor(lists_.ballAhead(mobile_.record[k]))) {
+                !hasRoomFor(lists_.ballAhead(mobile_.record[slot]))) {
                 listsHold_ = false;
                 return;
             }
-            lists_.followStray(static_cast<std::uint32_t>(k), mobile_, frozen_, boundary_,
-                               setup_.primitives, listTime_);
+            lists_.followStray(slot, mobile_, frozen_, boundary_, setup_.primitives, listTime_);
             ++strays_;
         }
     }

@@ -18,14 +18,20 @@ struct Workspace {
 };
 
 template <class Real>
-using WallPass = float (*)(const LawNumbers<Real>& numbers, const StepInput<Real>& input,
+using WallPass = float (*)(const LawNumbers<double>& numbers, const StepInput<Real>& input,
                            const GrainRecord<Real>* grains, ChunkContacts<Real>& contacts,
                            ContactSum<Real>* sums);
 
+template <class Number>
+Vec<double> vecOf(Number x, Number y, Number z)
+{
+    return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+}
+
 /// Adds the forces of analytic walls. Returns the deepest overlap [m]. Few grains touch one, so
-/// this is the same code for every target.
+/// this is the same code for every target; in double, where one number has a quick root.
 template <class Real, NormalLaw law, RollingLaw rolling>
-float sumWallContacts(const LawNumbers<Real>& numbers, const StepInput<Real>& input,
+float sumWallContacts(const LawNumbers<double>& numbers, const StepInput<Real>& input,
                       const GrainRecord<Real>* grains, ChunkContacts<Real>& contacts,
                       ContactSum<Real>* sums)
 {
@@ -36,40 +42,44 @@ float sumWallContacts(const LawNumbers<Real>& numbers, const StepInput<Real>& in
         const GrainRecord<Real>& g = grains[slot];
         const SurfacePoint surface =
             nearestSurface(input.walls[wall.primitive], Vec3(g.x, g.y, g.z));
-        const Real distance = static_cast<Real>(surface.distance);
-        if (distance >= g.radius) {
+        const auto radius = static_cast<double>(g.radius);
+        if (surface.distance >= radius) {
             wall.live = false;
             continue;
         }
-        ContactGeometry<Real> at;
-        at.normal = {static_cast<Real>(surface.normal.x()), static_cast<Real>(surface.normal.y()),
-                     static_cast<Real>(surface.normal.z())};
-        at.overlap = g.radius - distance;
-        at.arm = distance;
-        at.partnerArm = 0;
+        ContactGeometry<double> at;
+        at.normal = {surface.normal.x(), surface.normal.y(), surface.normal.z()};
+        at.overlap = radius - surface.distance;
+        at.arm = surface.distance;
+        at.partnerArm = 0.0;
         // A flat wall is a partner of infinite radius and mass: R* = R, m* = m.
-        at.effectiveRadius = g.radius;
-        at.radiusRatio = 1;
-        const ContactSide<Real> side = {
-            g.radius, g.inverseMass, {g.vx, g.vy, g.vz}, {g.wx, g.wy, g.wz}};
+        at.effectiveRadius = radius;
+        at.radiusRatio = 1.0;
+        const ContactSide<double> side = {radius, static_cast<double>(g.inverseMass),
+                                          vecOf(g.vx, g.vy, g.vz), vecOf(g.wx, g.wy, g.wz)};
 
         PairHistory<Real>& h = contacts.wallHistory[w];
-        ContactSprings<Real> springs;
+        ContactSprings<double> springs;
         if (wall.live) {
-            springs = {{h.sx, h.sy, h.sz}, {h.qx, h.qy, h.qz}};
+            springs = {vecOf(h.sx, h.sy, h.sz), vecOf(h.qx, h.qy, h.qz)};
         }
-        const ContactForce<Real> f = evaluateContact<law, rolling>(
-            numbers, at, side, ContactSide<Real>{}, static_cast<Real>(input.dt), springs);
-        h = {springs.tangential.x, springs.tangential.y, springs.tangential.z,
-             springs.rolling.x,    springs.rolling.y,    springs.rolling.z};
+        const ContactForce<double> f = evaluateContact<law, rolling>(
+            numbers, at, side, ContactSide<double>{}, input.dt, springs);
+        const auto put = [](const Vec<double>& v, Real& x, Real& y, Real& z) {
+            x = static_cast<Real>(v.x), y = static_cast<Real>(v.y), z = static_cast<Real>(v.z);
+        };
+        put(springs.tangential, h.sx, h.sy, h.sz);
+        put(springs.rolling, h.qx, h.qy, h.qz);
         wall.live = true;
         deepest = std::max(deepest, static_cast<float>(at.overlap));
 
         ContactSum<Real>& sum = sums[slot];
-        sum.fx += f.force.x, sum.fy += f.force.y, sum.fz += f.force.z;
-        sum.tx += f.torque.x, sum.ty += f.torque.y, sum.tz += f.torque.z;
-        sum.load += f.normal;
-        sum.partners += f.normal > 0;
+        sum.fx += static_cast<Real>(f.force.x), sum.fy += static_cast<Real>(f.force.y);
+        sum.fz += static_cast<Real>(f.force.z);
+        sum.tx += static_cast<Real>(f.torque.x), sum.ty += static_cast<Real>(f.torque.y);
+        sum.tz += static_cast<Real>(f.torque.z);
+        sum.load += static_cast<Real>(f.normal);
+        sum.partners += f.normal > 0.0 ? Real(1) : Real(0);
     }
     return deepest;
 }
@@ -174,15 +184,17 @@ private:
         work.sums = space.sums.data();
         work.count = static_cast<std::uint32_t>(space.sums.size());
         work.brokenGrain = 0;
+        report.left.resize(work.count);
+        work.left = report.left.data();
         passes_.moveGrains(work);
         report.fastestSquared = work.fastestSquared;
-        report.leftBall = work.leftBall;
+        report.left.resize(work.leftCount);
         report.broke = work.broke;
         report.brokenGrain = first + work.brokenGrain;
     }
 
     ContactCoefficients law_;
-    LawNumbers<Real> numbers_;
+    LawNumbers<double> numbers_;
     bool observe_;
     ChunkPasses<Real> passes_;
     WallPass<Real> wallPass_;

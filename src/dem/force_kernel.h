@@ -14,7 +14,7 @@ namespace sandflow {
 struct ChunkReport {
     float deepestOverlap = 0;      ///< m
     float fastestSquared = 0;      ///< m2/s2
-    bool leftBall = false;         ///< some grain left its ball: the lists end here
+    std::vector<std::uint16_t> left;  ///< slots within the chunk of the grains that left their balls
     bool broke = false;            ///< a position is no longer a number, or overlap is beyond reason
     std::uint32_t brokenGrain = 0; ///< slot, if broke
     std::vector<std::uint32_t> wake;  ///< frozen grains (index) pushed harder than they stand

@@ -31,7 +31,6 @@ public:
             pass.move(begin);
         }
         work.fastestSquared = static_cast<float>(Lanes::largest(pass.fastest_));
-        work.leftBall = pass.left_ != 0;
     }
 
 private:
@@ -43,6 +42,7 @@ private:
                    Real(static_cast<Number>(work.gravity[2]))},
           fastest_(Number(0))
     {
+        work.leftCount = 0;
         work.broke = false;
         work.brokenGrain = 0;
     }
@@ -89,7 +89,10 @@ private:
         Lanes::gatherRows(ball, 0, c);
         const Vec<Real> off = place - Vec<Real>{c[0], c[1], c[2]};
         const Real away = dot(off, off);
-        left_ |= Lanes::bitsOf(away > c[3] * c[3]);
+        const std::uint32_t left = Lanes::bitsOf(away > c[3] * c[3]);
+        if (left != 0) [[unlikely]] {
+            noteLeft(left, slot);
+        }
         // Far outside its ball within one step, or not a number at all: nothing physical.
         const Real limit = c[3] + g.radius;
         const std::uint32_t broken = Lanes::bitsOf(!(away < Real(100) * limit * limit));
@@ -102,11 +105,23 @@ private:
         fastest_ = max(fastest_, dot(g.velocity, g.velocity));
     }
 
+    /// Idle lanes repeat the last grain, which is noted once.
+    template <class SlotOf>
+    void noteLeft(std::uint32_t lanes, SlotOf slot)
+    {
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const auto at =
+                static_cast<std::uint16_t>(slot(static_cast<std::size_t>(__builtin_ctz(lanes))));
+            if (work_.leftCount == 0 || work_.left[work_.leftCount - 1] != at) {
+                work_.left[work_.leftCount++] = at;
+            }
+        }
+    }
+
     MotionWork<Number>& work_;
     const Real dt_;
     const Vec<Real> gravity_;
     Real fastest_;
-    std::uint32_t left_ = 0;
 };
 
 }  // namespace sandflow

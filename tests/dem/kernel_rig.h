@@ -76,7 +76,7 @@ struct KernelRig {
         reports.resize(lists.chunkCount());
         for (std::uint32_t c = 0; c < lists.chunkCount(); ++c) {
             (observe ? observing : kernel)->stepChunk(c, input, mobile, lists, reports[c]);
-            hold = hold && !reports[c].leftBall;
+            hold = hold && reports[c].left.empty();
         }
         mobile.record.swap(mobile.next);
     }

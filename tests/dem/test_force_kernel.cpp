@@ -299,11 +299,11 @@ TEST(ForceKernel, GrainsOutsideTheirBallEndTheListsAndLostOnesAreReported)
             rig.add(Vec3(0.03 * k, 0.0, 0.0), 0.005);
         }
         rig.step();
-        EXPECT_FALSE(rig.reports[0].leftBall || rig.reports[0].broke) << nameOf(target);
+        EXPECT_FALSE(!rig.reports[0].left.empty() || rig.reports[0].broke) << nameOf(target);
         GrainRecord<float>& g = rig.mobile.record[37];
         g.x += 0.001;
         rig.step();
-        EXPECT_TRUE(rig.reports[0].leftBall) << nameOf(target);
+        EXPECT_FALSE(rig.reports[0].left.empty()) << nameOf(target);
         EXPECT_FALSE(rig.reports[0].broke) << nameOf(target);
         rig.rebuild();
         rig.mobile.record[37].y = std::numeric_limits<double>::quiet_NaN();
