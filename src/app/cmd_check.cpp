@@ -139,10 +139,10 @@ std::string formatText(const Scene& scene, const CheckReport& report)
                         plan.step.step, plan.framePeriod / plan.step.step, plan.step.bound,
                         plan.step.reason);
     text += fmt::format(
-        "costs      about {} of memory, {} of picture files; {:.2g} grain-steps if "
-        "none were skipped\n",
-        formatBytes(report.costs.memoryBytes), formatBytes(report.costs.frameBytes),
-        report.costs.grainSteps);
+        "costs      about {} of memory ({:.0f} bytes a computed grain, {:.0f} a buried one), {} of "
+        "picture files; {:.2g} grain-steps if none were skipped\n",
+        formatBytes(report.costs.memoryBytes), kBytesPerMobile, kBytesPerBuried,
+        formatBytes(report.costs.frameBytes), report.costs.grainSteps);
     text += report.doubts.empty() ? "doubts     none\n" : "doubts\n";
     for (const std::string& doubt : report.doubts) {
         text += fmt::format("  - {}\n", doubt);

@@ -8,10 +8,6 @@
 namespace sandflow {
 namespace {
 
-/// Two records, the contact lists and the springs of a grain that is computed.
-constexpr double kBytesPerMobile = 440.0;
-/// Its place, size and id.
-constexpr double kBytesPerBuried = 16.0;
 /// Its copy in the frame that is being written, and that frame's text.
 constexpr double kBytesPerOutput = 57.0 + 33.0;
 /// The program itself.

@@ -15,6 +15,12 @@ struct EmitterPlan {
     double end = 0.0;    ///< s, last grains
 };
 
+/// Memory of a grain that is computed, in float: two records, its lists, its contacts and what the
+/// search for them needs. The settled bed of `bench kernel` takes 435.
+inline constexpr double kBytesPerMobile = 440.0;
+/// Of one that is buried: its place, size and id.
+inline constexpr double kBytesPerBuried = 16.0;
+
 /// Rough needs of a run, to tell megabytes from gigabytes and minutes from days.
 struct RunCosts {
     double grainSteps = 0.0;   ///< grains times steps if every grain were computed in every step

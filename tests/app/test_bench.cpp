@@ -22,8 +22,9 @@ TEST_F(Bench, KernelReportsAsJson)
     EXPECT_EQ(json.number("kernel.steps"), 50);
     EXPECT_TRUE(json.has("kernel.rebuilds"));
     EXPECT_FALSE(json.text("kernel.target").empty());
-    // At the least the two copies of a grain's record.
+    // At the least the two copies of a grain's record; at most what `check` reckons with.
     EXPECT_GT(json.number("kernel.bytes_per_grain"), 128.0);
+    EXPECT_LT(json.number("kernel.bytes_per_grain"), 440.0);
     // Every grain of a bed at rest lies on something.
     EXPECT_GT(json.number("kernel.contacts_per_grain"), 1.0);
     EXPECT_LT(json.number("kernel.max_overlap_r"), 0.2);

@@ -37,7 +37,8 @@ TEST_F(Check, PrintsSizesStepAndNoDoubtsOfASoundScene)
     const ProgramResult result = call("check tiny.toml");
     ASSERT_EQ(result.exitCode, 0) << result.errors;
     for (const char* part : {"tiny: can run, in surface-flow mode", "200 in all", "12 frames",
-                             "\nstep ", "contact.stiffness", "bound", "doubts     none"}) {
+                             "\nstep ", "contact.stiffness", "bound", "440 bytes a computed grain",
+                             "doubts     none"}) {
         EXPECT_NE(result.output.find(part), std::string::npos) << part << "\n" << result.output;
     }
     EXPECT_FALSE(exists("runs"));
