@@ -16,7 +16,7 @@ struct EmitterPlan {
 };
 
 /// Memory of a grain that is computed, in float: two records, its lists, its contacts and what the
-/// search for them needs. The settled bed of `bench kernel` takes 435.
+/// search for them needs. The settled bed of `bench kernel` takes 428.
 inline constexpr double kBytesPerMobile = 440.0;
 /// Of one that is buried: its place, size and id.
 inline constexpr double kBytesPerBuried = 16.0;

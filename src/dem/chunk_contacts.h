@@ -108,7 +108,7 @@ struct ChunkContacts {
         const auto fit = [](auto& list) {
             const std::size_t room = list.size() + list.size() / 32 + 16;
             list.clear();
-            if (list.capacity() < room || list.capacity() > room + room / 4) {
+            if (list.capacity() < room || list.capacity() > room + room / 8) {
                 list.shrink_to_fit();
                 list.reserve(room);
             }

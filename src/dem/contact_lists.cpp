@@ -27,19 +27,20 @@ void ContactLists<Real>::sortMobile(double horizon, MobileGrains<Real>& mobile)
     });
 
     mobile.next.resize(mobile.size());
-    rowScratch_.resize(mobile.size());
+    std::vector<std::uint32_t>& rowScratch = cellOfSlot_;  // not known yet
+    rowScratch.resize(mobile.size());
     memoryScratch_.resize(mobile.memory.size());
     const std::span<const std::uint32_t> order = cells_.order();
 #pragma omp parallel for schedule(static)
     for (std::int64_t k = 0; k < n; ++k) {
         mobile.next[k] = mobile.record[order[k]];
-        rowScratch_[k] = mobile.row[order[k]];
+        rowScratch[k] = mobile.row[order[k]];
         if (mobile.judged) {
             memoryScratch_[k] = mobile.memory[order[k]];
         }
     }
     mobile.record.swap(mobile.next);
-    mobile.row.swap(rowScratch_);
+    mobile.row.swap(rowScratch);
     mobile.memory.swap(memoryScratch_);
     placeBalls(mobile);
     spreadSearchRadius();
@@ -421,7 +422,7 @@ std::size_t ContactLists<Real>::bytes() const
 {
     std::size_t sum = balls_.capacity() * sizeof(Ball) + columns_.bytes() +
                       frozenColumns_.balls.bytes() + boundaryColumns_.balls.bytes() +
-                      (cellOfSlot_.capacity() + rowScratch_.capacity()) * sizeof(std::uint32_t) +
+                      cellOfSlot_.capacity() * sizeof(std::uint32_t) +
                       memoryScratch_.capacity() * sizeof(GrainMemory) + cells_.bytes();
     for (const ChunkContacts<Real>& chunk : chunks_) {
         sum += chunk.bytes();

@@ -212,7 +212,6 @@ private:
     std::vector<std::uint32_t> cellOfSlot_;
     std::vector<std::uint8_t> searchRadius_;
     std::vector<GrainMemory> memoryScratch_;
-    std::vector<std::uint32_t> rowScratch_;
     std::vector<Ball> balls_;
     std::vector<Vec3> origins_;
     std::vector<ChunkContacts<Real>> chunks_;
