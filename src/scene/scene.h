@@ -72,6 +72,8 @@ struct SkipSpec {
     bool sleep = true;   ///< still mobile grains are not computed until disturbed
 };
 
+enum class UpAxis { y, z };
+
 enum class SolidShape { plane, box, cylinder, disc, mesh };
 
 /// [[solids]] Rigid and fixed. Which fields count depends on shape; the reader refuses the rest.
@@ -82,7 +84,8 @@ struct SolidSpec {
     double until = 1e30;                     ///< s, exists until
     bool rough = false;                      ///< planes: covered with fixed grains (default true for
                                              ///< planes, set by the reader)
-    Vec3 point = Vec3::Zero();               ///< plane: a point on it; disc, cylinder: centre of base
+    Vec3 point = Vec3::Zero();               ///< plane: a point on it; disc, cylinder,
+                                             ///< mesh: centre of base
     Vec3 normal = Vec3::UnitZ();             ///< plane, disc: unit normal; cylinder: unit axis
     Vec3 min = Vec3::Zero();                 ///< box
     Vec3 max = Vec3::Zero();                 ///< box
@@ -91,8 +94,15 @@ struct SolidSpec {
     bool floor = false;                      ///< hollow box, cylinder: closed below
     double radius = 0.0;                     ///< disc, cylinder
     double height = 0.0;                     ///< cylinder, along its axis
-    std::string mesh;                        ///< path, relative to the scene file
-    std::string look = "floor";              ///< POV-Ray material: floor, glass, ceramic, wood, none
+    std::string mesh;                        ///< file, relative to the scene file
+    std::string standIn;                     ///< mesh: file used where the other cannot be found
+    UpAxis up = UpAxis::z;                   ///< mesh: which axis of the file points up
+    double scale = 1.0;                      ///< mesh: metres per unit of the file
+    std::optional<double> fitHeight;         ///< mesh: m, vertical extent; replaces scale
+    std::optional<double> fitLength;         ///< mesh: m, longer horizontal extent; replaces scale
+    double turn = 0.0;                       ///< mesh: degrees about z, counter-clockwise from above
+    bool stand = true;                       ///< mesh: the middle of its box's bottom comes to point
+    std::string look = "floor";              ///< POV-Ray material, one of words::kLooks
 };
 
 enum class EmitterKind { jet, slot, block, fill, pile, single };

@@ -62,6 +62,14 @@ void checkSolid(const std::string& table, const SolidSpec& solid, const SceneCom
         complain({table + ".floor", table + ".hollow"},
                  "is true, but only a hollow solid has a floor (hollow = true)");
     }
+    if (solid.fitHeight && solid.fitLength) {
+        complain({table + ".fit_length", table + ".fit_height"},
+                 "is given beside fit_height, expected one of the two");
+    }
+    if ((solid.fitHeight || solid.fitLength) && solid.scale != 1.0) {
+        complain({table + ".scale", table + ".fit_height", table + ".fit_length"},
+                 "is given beside a size to fit, expected one of the two");
+    }
     if (solid.shape == SolidShape::box) {
         checkBox(table, solid.min, solid.max, complain);
     }

@@ -28,11 +28,16 @@ inline constexpr Choice<EmitterKind> kKinds[] = {
     {EmitterKind::jet, "jet"},   {EmitterKind::slot, "slot"}, {EmitterKind::block, "block"},
     {EmitterKind::fill, "fill"}, {EmitterKind::pile, "pile"}, {EmitterKind::single, "single"}};
 
+inline constexpr Choice<UpAxis> kUpAxes[] = {{UpAxis::y, "y"}, {UpAxis::z, "z"}};
+
 /// Materials of the generated picture.
 inline constexpr Choice<const char*> kLooks[] = {{"floor", "floor"},
                                                  {"glass", "glass"},
                                                  {"ceramic", "ceramic"},
                                                  {"wood", "wood"},
+                                                 {"stone", "stone"},
+                                                 {"jade", "jade"},
+                                                 {"bronze", "bronze"},
                                                  {"none", "none"}};
 
 }  // namespace sandflow::words

@@ -34,6 +34,9 @@ inline constexpr double kOpenEnd = 1e30;
 // Cells are keyed by 32-bit integers: 10 km holds at the smallest grain, with room to spare.
 inline constexpr Range kCoordinate{-1e4, 1e4};
 inline constexpr Range kLength{0.0, 1e4, true};
+// A scan may be in micrometres or in kilometres.
+inline constexpr Range kMeshScale{0.0, 1e6, true};
+inline constexpr Range kTurn{-360.0, 360.0};
 inline constexpr Range kDomainCoordinate{-kOpenEnd, kOpenEnd};
 
 // From silt to boulders; below, cohesion and air rule what a grain does.

@@ -89,6 +89,21 @@ void visitFields(T& solid, Visitor& visit)
     if (solid.shape == SolidShape::mesh) {
         visit(Key{"mesh", "", "File of triangles, relative to the scene file.", Need::required},
               solid.mesh, Text{.mayBeEmpty = false});
+        visit(Key{"stand_in", "", "Another file, used where the first cannot be found."},
+              solid.standIn, Text{});
+        visit(Key{"up", "", "Which axis of the file points up."}, solid.up,
+              Choices<UpAxis>(words::kUpAxes));
+        visit(Key{"scale", "m", "Length of one unit of the file."}, solid.scale,
+              limits::kMeshScale);
+        visit(Key{"fit_height", "m", "Scaled to this height instead."}, solid.fitHeight,
+              OptionalRange{limits::kLength});
+        visit(Key{"fit_length", "m", "Scaled until its longer horizontal side is this instead."},
+              solid.fitLength, OptionalRange{limits::kLength});
+        visit(Key{"turn", "degrees", "Turned about z, counter-clockwise from above."}, solid.turn,
+              limits::kTurn);
+        visit(Key{"stand", "", "The middle of its bottom is put on point; false: its origin is."},
+              solid.stand, Flag{});
+        visit(Key{"point", "m", "Where it stands."}, solid.point, limits::kCoordinate);
         return;
     }
     if (solid.shape != SolidShape::disc) {

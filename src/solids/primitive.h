@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/vec3.h"
+#include "mesh/solid_interval.h"
 #include "scene/scene.h"
 
 #include <vector>
@@ -47,12 +48,6 @@ std::vector<Primitive> buildPrimitives(const SolidSpec& solid, int solidIndex);
 /// finite unit vector: on a thin plate it is the plate's axis, on the axis of a cylinder or tube
 /// one of the directions that are equally near.
 SurfacePoint nearestSurface(const Primitive& primitive, const Vec3& point);
-
-/// A vertical stretch [lo, hi] of a column that is inside a solid.
-struct SolidInterval {
-    double lo;
-    double hi;
-};
 
 /// The part of the vertical line through (x, y) inside the primitive; lo >= hi if it is missed.
 /// A half-space whose surface is not steep gives [-1e30, z of its surface] ([z, 1e30] if it faces

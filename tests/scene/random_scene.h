@@ -127,6 +127,18 @@ private:
             solid.max = vector(0.1, 9);
         } else if (shape == SolidShape::mesh) {
             solid.mesh = text() + ".obj";
+            solid.standIn = text();
+            solid.up = chance() ? UpAxis::y : UpAxis::z;
+            solid.fitHeight = maybe(0.1, 9);
+            if (!solid.fitHeight) {
+                solid.fitLength = maybe(0.1, 9);
+            }
+            if (!solid.fitHeight && !solid.fitLength) {
+                solid.scale = number(0, 9);
+            }
+            solid.turn = number(-360, 360);
+            solid.stand = chance();
+            solid.point = vector(-9, 9);
         } else {
             solid.point = vector(-9, 9);
             solid.normal = direction();

@@ -76,6 +76,13 @@ inline void expectSame(const SolidSpec& a, const SolidSpec& b)
     expectSameBits(a.radius, b.radius);
     expectSameBits(a.height, b.height);
     EXPECT_EQ(a.mesh, b.mesh);
+    EXPECT_EQ(a.standIn, b.standIn);
+    EXPECT_EQ(a.up, b.up);
+    expectSameBits(a.scale, b.scale);
+    expectSameBits(a.fitHeight, b.fitHeight);
+    expectSameBits(a.fitLength, b.fitLength);
+    expectSameBits(a.turn, b.turn);
+    EXPECT_EQ(a.stand, b.stand);
     EXPECT_EQ(a.look, b.look);
 }
 

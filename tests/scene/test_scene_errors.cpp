@@ -127,6 +127,12 @@ TEST(SceneErrors, ValuesOutOfRangeSayTheRange)
         {"not auto", "[time]\nstep = \"Auto\"\n" + kJet,
          "s.toml:2:8: time.step: is \"Auto\", expected \"auto\" or a number above 0 and up to 0.1 "
          "s"},
+        {"two sizes of a mesh",
+         kJet + "[[solids]]\nshape = \"mesh\"\nmesh = \"a.obj\"\nfit_height = 1\nfit_length = 1\n",
+         "s.toml:12:14: solids[0].fit_length: is given beside fit_height, expected one of the two"},
+        {"scale and size of a mesh",
+         kJet + "[[solids]]\nshape = \"mesh\"\nmesh = \"a.obj\"\nscale = 0.5\nfit_length = 1\n",
+         "s.toml:11:9: solids[0].scale: is given beside a size to fit, expected one of the two"},
         {"empty mesh", kJet + "[[solids]]\nshape = \"mesh\"\nmesh = \"\"\n",
          "s.toml:10:8: solids[0].mesh: is empty, expected a string that is not empty"},
         {"two-line name", "name = \"a\\nb\"\n" + kJet,
