@@ -55,16 +55,26 @@ std::vector<std::pair<Triangle, std::size_t>> sortTriangles(const TriangleMesh& 
     return sorted;
 }
 
-/// How often each edge is passed one way more than the other.
+/// How often some edges are passed one way more than the other.
 class EdgeBalance {
 public:
+    /// The edges of these triangles are looked at, and no others.
+    EdgeBalance(const TriangleMesh& mesh, const std::vector<std::size_t>& watched)
+    {
+        for (const std::size_t t : watched) {
+            const Triangle& triangle = mesh.triangles[t];
+            for (std::size_t k = 0; k < 3; ++k) {
+                balance_[keyOf(triangle[k], triangle[(k + 1) % 3])] = 0;
+            }
+        }
+    }
+
     /// How far the three edges of a triangle are from balance in all.
     int imbalance(const Triangle& t) const
     {
         int sum = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto found = balance_.find(keyOf(t[k], t[(k + 1) % 3]));
-            sum += found == balance_.end() ? 0 : std::abs(found->second);
+            sum += std::abs(balance_.at(keyOf(t[k], t[(k + 1) % 3])));
         }
         return sum;
     }
@@ -74,7 +84,10 @@ public:
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = t[k];
             const std::uint32_t b = t[(k + 1) % 3];
-            balance_[keyOf(a, b)] += a < b ? times : -times;
+            const auto found = balance_.find(keyOf(a, b));
+            if (found != balance_.end()) {
+                found->second += a < b ? times : -times;
+            }
         }
     }
 
@@ -95,16 +108,19 @@ private:
 /// open. Decimated scans have faces twice on purpose, in folds that are as thin as a face.
 void unmarkNeeded(const TriangleMesh& mesh, std::vector<char>& marked)
 {
-    if (std::count(marked.begin(), marked.end(), 1) == 0) {
+    std::vector<std::size_t> left;
+    for (std::size_t t = 0; t < marked.size(); ++t) {
+        if (marked[t] != 0) {
+            left.push_back(t);
+        }
+    }
+    if (left.empty()) {
         return;
     }
-    EdgeBalance balance;
-    std::vector<std::size_t> left;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    EdgeBalance balance(mesh, left);
+    for (std::size_t t = 0; t < marked.size(); ++t) {
         if (marked[t] == 0) {
             balance.add(mesh.triangles[t], 1);
-        } else {
-            left.push_back(t);
         }
     }
     // One may make room for the next; chains of more than a few are not looked for.

@@ -312,8 +312,8 @@ private:
             return;
         }
         for (std::size_t i = 0; i < corners.size(); i += 3) {
-            mesh.faceSum += hashOfFace(std::array{points[corners[i]], points[corners[i + 1]],
-                                                  points[corners[i + 2]]});
+            mesh.faceSum += hashOfFace(
+                {points[corners[i]], points[corners[i + 1]], points[corners[i + 2]]});
         }
         mesh.triangles += corners.size() / 3;
         mesh.numbers += corners.size() + points.size();

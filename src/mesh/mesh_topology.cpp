@@ -43,27 +43,40 @@ struct Side {
     bool backward;
     std::uint32_t triangle;
 
-    auto key() const { return std::tie(lo, hi, backward, triangle); }
+    auto key() const { return std::tie(hi, backward, triangle); }
 };
+
+template <typename Visit>
+void forEachSide(const TriangleMesh& mesh, Visit visit)
+{
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = mesh.triangles[t][k];
+            const std::uint32_t b = mesh.triangles[t][(k + 1) % 3];
+            visit(Side{std::min(a, b), std::max(a, b), a > b, static_cast<std::uint32_t>(t)});
+        }
+    }
+}
 
 }  // namespace
 
 MeshEdges findEdges(const TriangleMesh& mesh)
 {
-    std::vector<Side> sides;
-    sides.reserve(3 * mesh.triangles.size());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = mesh.triangles[t][k];
-            const std::uint32_t b = mesh.triangles[t][(k + 1) % 3];
-            sides.push_back({std::min(a, b), std::max(a, b), a > b,
-                             static_cast<std::uint32_t>(t)});
-        }
+    // Sides by their lower point, by counting; then each point's few sides by the rest of their key.
+    std::vector<std::size_t> first(mesh.points.size() + 1, 0);
+    forEachSide(mesh, [&](const Side& side) { ++first[side.lo + 1]; });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<Side> sides(first.back());
+    std::vector<std::size_t> next(first.begin(), first.end() - 1);
+    forEachSide(mesh, [&](const Side& side) { sides[next[side.lo]++] = side; });
+    for (std::size_t p = 0; p + 1 < first.size(); ++p) {
+        std::sort(sides.begin() + static_cast<std::ptrdiff_t>(first[p]),
+                  sides.begin() + static_cast<std::ptrdiff_t>(first[p + 1]),
+                  [](const Side& a, const Side& b) { return a.key() < b.key(); });
     }
-    std::sort(sides.begin(), sides.end(),
-              [](const Side& a, const Side& b) { return a.key() < b.key(); });
     MeshEdges found;
     found.sides.reserve(sides.size());
+    found.edges.reserve(sides.size() / 2);
     for (const Side& side : sides) {
         if (found.edges.empty() || found.edges.back().lo != side.lo ||
             found.edges.back().hi != side.hi) {

@@ -1,5 +1,6 @@
 #include "mesh/mesh_gates.h"
 #include "mesh/refuse_mesh.h"
+#include "mesh/split_polygon.h"
 #include "mesh/text_lines.h"
 
 #include <algorithm>
@@ -190,7 +191,12 @@ private:
                 }
                 face.push_back(static_cast<std::uint32_t>(corners_[at]));
             }
-            writer_.addFace(face);
+            if (!writer_.addFace(face)) {
+                refuseMesh(file_,
+                           "line {}: face {} with {} corners crosses itself; split it into "
+                           "triangles in a modelling program",
+                           faceLines_[f], f + 1, face.size());
+            }
         }
     }
 

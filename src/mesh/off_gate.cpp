@@ -1,5 +1,6 @@
 #include "mesh/mesh_gates.h"
 #include "mesh/refuse_mesh.h"
+#include "mesh/split_polygon.h"
 #include "mesh/text_lines.h"
 
 #include <algorithm>
@@ -144,7 +145,12 @@ private:
                 refuseFace(index);
             }
         }
-        writer_.addFace(corners_);
+        if (!writer_.addFace(corners_)) {
+            refuseMesh(file_,
+                       "face {} (line {}) with {} corners crosses itself; split it into triangles "
+                       "in a modelling program",
+                       index, lines_.number(), corners_.size());
+        }
     }
 
     std::uint32_t readCorner(std::string_view word, std::int64_t face)

@@ -1,6 +1,7 @@
 #include "mesh/mesh_gates.h"
 #include "mesh/ply_header.h"
 #include "mesh/refuse_mesh.h"
+#include "mesh/split_polygon.h"
 #include "mesh/text_lines.h"
 
 #include <algorithm>
@@ -189,7 +190,11 @@ private:
         if (!body_.end()) {
             refuseMesh(file_, "face {} has more numbers than the header declares", index);
         }
-        writer_.addFace(corners_);
+        if (!writer_.addFace(corners_)) {
+            refuseMesh(file_, "face {} with {} corners crosses itself; split it into triangles in a "
+                       "modelling program",
+                       index, corners_.size());
+        }
     }
 
     void readCorners(const PlyProperty& list, std::uint64_t index)

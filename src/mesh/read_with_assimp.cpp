@@ -5,11 +5,11 @@
 #include <assimp/Importer.hpp>
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
-#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <string_view>
 #include <vector>
@@ -107,89 +107,24 @@ bool agrees(const aiScene& scene, const CleanCopy& copy)
     std::uint64_t faces = 0;
     std::uint64_t faceSum = 0;
     bool valid = true;
-    std::vector<Vec3f> corners;
     visitMeshes(scene, [&](const aiMesh& mesh, const Eigen::Affine3d&) {
-        for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+        for (unsigned f = 0; f < mesh.mNumFaces && valid; ++f) {
             const aiFace& face = mesh.mFaces[f];
-            corners.clear();
-            for (unsigned i = 0; i < face.mNumIndices; ++i) {
-                if (face.mIndices[i] >= mesh.mNumVertices) {
-                    valid = false;
-                    return;
+            valid = face.mNumIndices == 3 &&
+                    std::all_of(face.mIndices, face.mIndices + 3,
+                                [&](unsigned index) { return index < mesh.mNumVertices; });
+            if (valid) {
+                std::array<Vec3f, 3> corners;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const aiVector3D& v = mesh.mVertices[face.mIndices[k]];
+                    corners[k] = {v.x, v.y, v.z};
                 }
-                const aiVector3D& v = mesh.mVertices[face.mIndices[i]];
-                corners.emplace_back(v.x, v.y, v.z);
+                ++faces;
+                faceSum += hashOfFace(corners);
             }
-            ++faces;
-            faceSum += hashOfFace(corners);
         }
     });
     return valid && faces == copy.faces && faceSum == copy.faceSum;
-}
-
-/// Of every face; nothing if they all are triangles.
-std::vector<std::vector<unsigned>> cornersOf(const aiMesh& mesh)
-{
-    std::vector<std::vector<unsigned>> faces;
-    const bool anyPolygon =
-        std::any_of(mesh.mFaces, mesh.mFaces + mesh.mNumFaces,
-                    [](const aiFace& face) { return face.mNumIndices > 3; });
-    if (anyPolygon) {
-        for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-            const aiFace& face = mesh.mFaces[f];
-            faces.emplace_back(face.mIndices, face.mIndices + face.mNumIndices);
-        }
-    }
-    return faces;
-}
-
-/// assimp leaves a polygon half split if it finds no ear to cut off. It keeps the order of faces,
-/// so n corners must be followed by n - 2 triangles of the same corners.
-void checkSplit(const std::vector<std::vector<unsigned>>& polygons, const aiMesh& mesh,
-                const std::string& file)
-{
-    unsigned at = 0;
-    for (std::size_t p = 0; p < polygons.size(); ++p) {
-        const std::vector<unsigned>& polygon = polygons[p];
-        for (std::size_t left = polygon.size() - 2; left > 0; --left, ++at) {
-            const bool fits =
-                at < mesh.mNumFaces &&
-                std::all_of(mesh.mFaces[at].mIndices, mesh.mFaces[at].mIndices + 3,
-                            [&](unsigned corner) {
-                                return std::find(polygon.begin(), polygon.end(), corner) !=
-                                       polygon.end();
-                            });
-            if (!fits) {
-                refuseMesh(file,
-                           "face {} (from 0) with {} corners crosses itself or is folded; split it "
-                           "into triangles in a modelling program",
-                           p, polygon.size());
-            }
-        }
-    }
-    if (!polygons.empty() && at != mesh.mNumFaces) {
-        refuseMesh(file, "its polygons could not be split into triangles; split them in a modelling "
-                   "program");
-    }
-}
-
-void splitPolygons(Assimp::Importer& importer, const std::string& file)
-{
-    const aiScene* scene = importer.GetScene();
-    std::vector<std::vector<std::vector<unsigned>>> polygons;
-    for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
-        polygons.push_back(cornersOf(*scene->mMeshes[m]));
-    }
-    scene = importer.ApplyPostProcessing(aiProcess_ValidateDataStructure | aiProcess_Triangulate |
-                                         aiProcess_SortByPType);
-    if (scene == nullptr || scene->mNumMeshes != polygons.size()) {
-        refuseMesh(file, "assimp cannot split its polygons into triangles ({}); split them in a "
-                   "modelling program",
-                   importer.GetErrorString());
-    }
-    for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
-        checkSplit(polygons[m], *scene->mMeshes[m], file);
-    }
 }
 
 void appendMesh(const aiMesh& mesh, const Eigen::Affine3d& transform, TriangleMesh& result)
@@ -214,8 +149,6 @@ TriangleMesh readWithAssimp(const CleanCopy& copy, const std::string& file)
 {
     Assimp::Importer importer;
     importer.SetIOHandler(new CopyFiles(copy));  // owned by the importer
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
-                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     const aiScene* scene = importer.ReadFile(copy.fileName, 0);
     if (scene == nullptr || scene->mNumMeshes == 0) {
         refuseMesh(file, "assimp cannot read it ({}); convert it to binary PLY",
@@ -224,10 +157,15 @@ TriangleMesh readWithAssimp(const CleanCopy& copy, const std::string& file)
     if (!agrees(*scene, copy)) {
         refuseMesh(file, "assimp sees other faces in it than there are; convert it to binary PLY");
     }
-    splitPolygons(importer, file);
-
+    // The copy holds nothing but triangles, so there is nothing to split or sort; the walk over the
+    // nodes below does in double, and with mirrors, what PreTransformVertices would do.
+    scene = importer.ApplyPostProcessing(aiProcess_ValidateDataStructure);
+    if (scene == nullptr) {
+        refuseMesh(file, "assimp finds it malformed ({}); convert it to binary PLY",
+                   importer.GetErrorString());
+    }
     TriangleMesh result;
-    visitMeshes(*importer.GetScene(), [&](const aiMesh& mesh, const Eigen::Affine3d& transform) {
+    visitMeshes(*scene, [&](const aiMesh& mesh, const Eigen::Affine3d& transform) {
         appendMesh(mesh, transform, result);
     });
     return result;
