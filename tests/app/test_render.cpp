@@ -134,7 +134,8 @@ TEST_F(RenderTest, rendersTheFramesAskedForOnce)
     ASSERT_EQ(result.exitCode, 0) << result.errors;
     std::vector<std::uint8_t> previous;
     for (int frame = 1; frame <= 3; ++frame) {
-        const Picture picture = decodePng(read(fmt::format("my pictures/frame_00000{}.png", frame)));
+        const Picture picture =
+            decodePng(read(fmt::format("my pictures/frame_00000{}.png", frame)));
         EXPECT_EQ(picture.width, 64);
         EXPECT_EQ(picture.height, 48);
         // A blank one has one colour; that of an empty floor has few.
