@@ -42,7 +42,7 @@ void addCorners(std::vector<Vec3>& points, const Vec3& min, const Vec3& max)
     }
 }
 
-/// The points of a mesh that stick out most in 100 directions; no other sticks out of these by much.
+/// The points of a mesh that stick out most in 100 directions; no other sticks out by much more.
 void addOutermost(std::vector<Vec3>& points, const TriangleMesh& mesh)
 {
     constexpr int directions = 100;

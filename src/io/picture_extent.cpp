@@ -51,8 +51,8 @@ std::optional<double> findMeshTop(const TriangleMesh& mesh, const Vec3& p)
     return top;
 }
 
-/// Room for sand in the hollow of a mesh at p: its box above the surface there. Empty where it is not
-/// hollow, because somewhere around p its rim is missing or low.
+/// Room for sand in the hollow of a mesh at p: its box above the surface there. Empty where it is
+/// not hollow, because somewhere around p its rim is missing or low.
 Box3 findHollow(const TriangleMesh& mesh, const Vec3& p)
 {
     const Box3 bounds = boundsOf(mesh);
@@ -155,7 +155,8 @@ Box3 estimateEmitterBox(const Setting& setting, const EmitterSpec& emitter)
         case EmitterKind::jet:
         case EmitterKind::slot: {
             const Vec3 velocity = emitter.speed * emitter.direction;
-            return makeHeapBox(findLanding(setting, emitter.position, velocity), volume, kHeapSlope);
+            return makeHeapBox(findLanding(setting, emitter.position, velocity), volume,
+                               kHeapSlope);
         }
         case EmitterKind::block: return slump(setting, emitter, volume);
         case EmitterKind::fill: return makeBox(emitter.min, emitter.max);

@@ -17,7 +17,7 @@ constexpr int kLengthDecimals = 4;
 constexpr int kNormalDecimals = 3;
 /// "<,,>,\n" and three numbers.
 constexpr std::size_t kLongestRow = 6 + 3 * kLongestDecimal;
-/// Around a point with more triangles, as the hub of a fan, comparing each with each takes too long.
+/// Around a point with more triangles, as a fan's hub, comparing each with each takes too long.
 constexpr std::size_t kManyTriangles = 200;
 
 struct Facet {
@@ -123,7 +123,7 @@ char* putVector(char* out, const Vec3& vector)
     return out;
 }
 
-/// Appends "KEYWORD{COUNT,\n<..>,\n<..>}\n"; `putRow(out, i)` writes one "<..>" and returns its end.
+/// Appends "KEYWORD{COUNT,\n<..>,\n<..>}\n"; `putRow(out, i)` writes a "<..>", returns its end.
 template <class PutRow>
 void appendList(std::string& text, std::string_view keyword, std::size_t count, PutRow putRow)
 {

@@ -38,8 +38,8 @@ std::string formatRunScene(const Scene& scene, const PovSceneInfo& info,
 ///
 /// when called in that folder. To be called when a run starts, with an estimate of the sand's
 /// place, and again at its end; a mesh file that is there already is left alone, because meshes do
-/// not move. Throws InputError for a look or a solid that cannot be drawn, also for a mesh solid that
-/// is not among `meshes`; SystemError if a file cannot be read or written.
+/// not move. Throws InputError for a look or a solid that cannot be drawn, also for a mesh solid
+/// that is not among `meshes`; SystemError if a file cannot be read or written.
 void writePovScene(const std::string& runFolder, const std::string& povrayFolder,
                    const Scene& scene, const PovSceneInfo& info,
                    std::span<const SceneMesh> meshes = {});

@@ -140,8 +140,8 @@ TEST(PovSolids, hidesAndRefusesLooks)
     EXPECT_EQ(drawSolid(box), "");
     box.look = "gold";
     EXPECT_EQ(messageOf<InputError>([&] { drawSolid(box); }),
-              "solid \"tank\": unknown look \"gold\": use floor, glass, ceramic, wood, stone, jade, "
-              "bronze or none");
+              "solid \"tank\": unknown look \"gold\": use floor, glass, ceramic, wood, stone, "
+              "jade, bronze or none");
 }
 
 TEST(PovSolids, hasAMaterialForEveryLookOfAScene)
@@ -163,7 +163,8 @@ TEST(PovSolids, callsAMeshByItsNameAndRefusesOneItDoesNotHave)
     scene.solids[1].from = 0.5;
     const std::vector<SceneMesh> meshes{{1, makeBoxMesh(Vec3::Zero(), Vec3::Ones())}};
     EXPECT_NE(formatPovSolids(scene, Vec3(0.0, -5.0, 3.0), meshes)
-                  .find("  // figure\n  #if (RunTime >= 0.5)\n  object{Solid1 JadeLook()}\n  #end\n"),
+                  .find("  // figure\n  #if (RunTime >= 0.5)\n"
+                        "  object{Solid1 JadeLook()}\n  #end\n"),
               std::string::npos);
     EXPECT_EQ(
         messageOf<InputError>([&] { formatPovSolids(scene, Vec3(0.0, -5.0, 3.0)); }),
