@@ -59,7 +59,7 @@ TEST(SampleSurface, HoldsForOtherGapsAndSeeds)
     }
 }
 
-/// Darts come first and keep the whole gap; only the certificate comes closer, to 0.9 gap.
+/// Darts come first and keep the whole gap; only the certificate comes closer, to 0.85 gap.
 TEST(SampleSurface, SamplesKeepApart)
 {
     for (const NamedMesh& named : makeSampledMeshes(kGap)) {
@@ -87,8 +87,8 @@ TEST(SampleSurface, SamplesKeepApart)
         const double share = static_cast<double>(latecomers) / count;
         RecordProperty("closest_over_gap " + named.name, std::to_string(closest / kGap));
         RecordProperty("late_share " + named.name, std::to_string(share));
-        EXPECT_GE(closest, 0.9 * kGap) << named.name;
-        EXPECT_LT(share, 0.22) << named.name;
+        EXPECT_GE(closest, 0.85 * kGap) << named.name;
+        EXPECT_LT(share, 0.27) << named.name;
         // All that come close are at the end, behind the darts.
         EXPECT_GT(firstLate, 0.7 * count) << named.name;
     }
@@ -104,7 +104,7 @@ TEST(SampleSurface, CountFollowsTheArea)
         RecordProperty("sphere " + std::to_string(seed), std::to_string(onSphere));
         RecordProperty("box " + std::to_string(seed), std::to_string(onBox));
         EXPECT_NEAR(onSphere, 0.74, 0.015);
-        EXPECT_NEAR(onBox, 0.756, 0.015);  // edges have samples on both sides
+        EXPECT_NEAR(onBox, 0.765, 0.015);  // edges have samples on both sides
     }
 }
 
@@ -122,7 +122,7 @@ TEST(SampleSurface, BothFacesOfAThinPlateGetSamples)
         }
     }
     for (const double density : found) {
-        EXPECT_NEAR(density, 0.74, 0.03);
+        EXPECT_NEAR(density, 0.765, 0.03);
     }
 }
 
@@ -151,7 +151,7 @@ TEST(SampleSurface, SameBitsEverywhere)
     const std::uint64_t together = hashOf(sampleSurface(mesh, kGap, 5));
     omp_set_num_threads(threads);
     EXPECT_EQ(alone, together);
-    EXPECT_EQ(alone, 0xb985061c68dcea4cULL) << std::hex << alone;
+    EXPECT_EQ(alone, 0xa1ed63f7efb3ca74ULL) << std::hex << alone;
     EXPECT_NE(alone, hashOf(sampleSurface(mesh, kGap, 6)));
 }
 
@@ -169,6 +169,24 @@ TEST(SampleSurface, TrianglesWithoutAreaCountAsLines)
     }
     EXPECT_LE(search.distanceTo(mesh.points[3], Vec3::UnitZ()), kGap);
     EXPECT_LT(samples.points.size(), 25u);  // once, not once per triangle
+}
+
+/// A needle costs what its length costs: about a sample per gap, and no time beyond that. (Cutting
+/// it into triangles would take 3^15 of them.)
+TEST(SampleSurface, NeedlesAreNoTrouble)
+{
+    const double length = 30000.0 * kGap;
+    TriangleMesh mesh;
+    mesh.points = {Vec3::Zero(), {length, 0.0, 0.0}, {0.0, 0.3 * kGap, 0.0}};
+    mesh.triangles = {{0, 1, 2}};
+    const SurfaceSamples samples = sampleSurface(mesh, kGap, 1);
+    EXPECT_GT(samples.points.size(), 15000u);
+    EXPECT_LT(samples.points.size(), 30000u);
+    const SampleSearch search(samples, kGap);
+    for (int k = 0; k <= 100000; ++k) {
+        const Vec3 point(length * k / 100000.0, 0.0, 0.0);
+        ASSERT_LE(search.distanceTo(point, Vec3::UnitZ()), kGap) << k;
+    }
 }
 
 TEST(SampleSurface, SmallAndEmptyMeshes)
