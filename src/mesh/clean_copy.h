@@ -15,7 +15,7 @@ namespace sandflow {
 /// on some malformed files and turns others into wrong geometry without a word, so every file is
 /// read strictly first, and what assimp makes of the copy is compared with what the gate saw.
 struct CleanCopy {
-    std::string fileName;              ///< what assimp is told; its ending names the format
+    std::string fileName;  ///< what assimp is told; its ending names the format
     std::string bytes;
     std::string buffer;                ///< glTF: the content of kBufferName
     std::uint64_t faces = 0;           ///< triangles, once for every node with them
@@ -35,8 +35,8 @@ class PlyWriter {
 public:
     /// Returns whether the point is finite in single precision; if not it is not added.
     bool addPoint(const Vec3& p);
-    /// Every index below pointCount(), 3 to kMaxCorners of them. Returns whether the polygon could be
-    /// split into triangles.
+    /// Every index below pointCount(), 3 to kMaxCorners of them. Returns whether the polygon could
+    /// be split into triangles.
     bool addFace(std::span<const std::uint32_t> corners);
     std::size_t pointCount() const { return points_.size(); }
 

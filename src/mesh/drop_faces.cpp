@@ -198,9 +198,8 @@ std::size_t dropBackFaces(TriangleMesh& mesh)
     const std::size_t dropped = dropMarked(marked, single);
     alignNeighbours(single);
     const MeshEdges edges = findEdges(single);
-    const bool fits = std::all_of(edges.edges.begin(), edges.edges.end(), [](const MeshEdge& e) {
-        return e.forward == e.backward;
-    });
+    const bool fits = std::all_of(edges.edges.begin(), edges.edges.end(),
+                                  [](const MeshEdge& e) { return e.forward == e.backward; });
     if (!fits) {
         return 0;
     }

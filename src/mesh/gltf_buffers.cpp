@@ -164,7 +164,8 @@ GltfBuffers::Elements GltfBuffers::find(std::size_t index, std::string_view type
                    type);
     }
     if (accessor.find("sparse") != nullptr || accessor.find("bufferView") == nullptr) {
-        refuseMesh(file_, "accessor {} of the glTF file is sparse; export the file without sparse "
+        refuseMesh(file_,
+                   "accessor {} of the glTF file is sparse; export the file without sparse "
                    "accessors",
                    index);
     }
@@ -180,8 +181,8 @@ GltfBuffers::Elements GltfBuffers::find(std::size_t index, std::string_view type
                    "float positions and unsigned indices",
                    index, elements.componentType);
     }
-    const JsonValue& view = gltfItem(
-        root_, "bufferViews", gltfIndex(accessor, "bufferView", 0, file_), file_);
+    const JsonValue& view =
+        gltfItem(root_, "bufferViews", gltfIndex(accessor, "bufferView", 0, file_), file_);
     const std::size_t buffer = gltfIndex(view, "buffer", SIZE_MAX, file_);
     const std::size_t viewAt = gltfIndex(view, "byteOffset", 0, file_);
     const std::size_t viewSize = gltfIndex(view, "byteLength", 0, file_);

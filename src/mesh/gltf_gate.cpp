@@ -89,9 +89,9 @@ bool isLook(std::string_view extension)
 
 /// What became of a mesh of the file.
 struct ReadMesh {
-    std::size_t index = 0;           ///< in the clean copy
+    std::size_t index = 0;  ///< in the clean copy
     std::uint64_t triangles = 0;
-    std::uint64_t numbers = 0;       ///< corners and points
+    std::uint64_t numbers = 0;  ///< corners and points
     std::uint64_t faceSum = 0;
 };
 
@@ -176,8 +176,7 @@ private:
 
     std::size_t readNode(const JsonValue& node, std::size_t index, int depth)
     {
-        std::string text = fmt::format(
-            R"("matrix":[{}])", fmt::join(readMatrix(node, index), ","));
+        std::string text = fmt::format(R"("matrix":[{}])", fmt::join(readMatrix(node, index), ","));
         if (node.find("mesh") != nullptr) {
             const ReadMesh& read = readMesh(gltfIndex(node, "mesh", 0, file_));
             if (read.triangles > 0) {
@@ -201,7 +200,8 @@ private:
         copy_.faceSum += mesh.faceSum;
         placedNumbers_ += mesh.numbers;
         if (placedNumbers_ > std::max(kMaxInstancedNumbers, storedNumbers_)) {
-            refuseMesh(file_, "the nodes of the glTF file show its meshes so often that there are "
+            refuseMesh(file_,
+                       "the nodes of the glTF file show its meshes so often that there are "
                        "more than {} corners and points; reduce it",
                        kMaxInstancedNumbers);
         }
@@ -243,8 +243,8 @@ private:
     /// Column by column, as the format has it.
     std::vector<double> readMatrix(const JsonValue& node, std::size_t index) const
     {
-        const std::vector<double> matrix = readNumbers(
-            node, "matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, index);
+        const std::vector<double> matrix =
+            readNumbers(node, "matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, index);
         if (matrix[3] != 0.0 || matrix[7] != 0.0 || matrix[11] != 0.0 || matrix[15] != 1.0) {
             refuseMesh(file_, "\"matrix\" of node {} in the glTF file is a projection; repair it",
                        index);
@@ -258,13 +258,14 @@ private:
         const Eigen::Quaterniond rotation(r[3], r[0], r[1], r[2]);
         constexpr double kTolerance = 0.01;  // of the length 1 that the format demands
         if (!(std::abs(rotation.norm() - 1.0) < kTolerance)) {
-            refuseMesh(file_, "\"rotation\" of node {} in the glTF file has the length {}, not 1; "
+            refuseMesh(file_,
+                       "\"rotation\" of node {} in the glTF file has the length {}, not 1; "
                        "repair the file",
                        index, rotation.norm());
         }
         Eigen::Affine3d affine = Eigen::Affine3d::Identity();
-        affine.linear() = rotation.normalized().toRotationMatrix() *
-                          Vec3(s[0], s[1], s[2]).asDiagonal();
+        affine.linear() =
+            rotation.normalized().toRotationMatrix() * Vec3(s[0], s[1], s[2]).asDiagonal();
         affine.translation() = Vec3(t[0], t[1], t[2]);
         return {affine.matrix().data(), affine.matrix().data() + 16};
     }
@@ -300,7 +301,8 @@ private:
         }
         const JsonValue* attributes = primitive.find("attributes");
         if (mode > 6 || attributes == nullptr || attributes->find("POSITION") == nullptr) {
-            refuseMesh(file_, "mesh {} of the glTF file has a part without positions, or of the "
+            refuseMesh(file_,
+                       "mesh {} of the glTF file has a part without positions, or of the "
                        "unknown mode {}; repair the file",
                        meshIndex, mode);
         }
@@ -312,8 +314,8 @@ private:
             return;
         }
         for (std::size_t i = 0; i < corners.size(); i += 3) {
-            mesh.faceSum += hashOfFace(
-                {points[corners[i]], points[corners[i + 1]], points[corners[i + 2]]});
+            mesh.faceSum +=
+                hashOfFace({points[corners[i]], points[corners[i + 1]], points[corners[i + 2]]});
         }
         mesh.triangles += corners.size() / 3;
         mesh.numbers += corners.size() + points.size();
@@ -339,12 +341,14 @@ private:
         const auto bad = std::find_if(list.begin(), list.end(),
                                       [&](std::uint32_t index) { return index >= points; });
         if (bad != list.end()) {
-            refuseMesh(file_, "index {} of mesh {} in the glTF file names vertex {}, but there are "
+            refuseMesh(file_,
+                       "index {} of mesh {} in the glTF file names vertex {}, but there are "
                        "only 0 to {}; repair the file",
                        bad - list.begin(), meshIndex, *bad, points - 1);
         }
         if (list.size() < 3 || (mode == 4 && list.size() % 3 != 0)) {
-            refuseMesh(file_, "mesh {} of the glTF file has {} corners, which are no triangles; "
+            refuseMesh(file_,
+                       "mesh {} of the glTF file has {} corners, which are no triangles; "
                        "repair the file",
                        meshIndex, list.size());
         }
@@ -387,11 +391,11 @@ private:
     const std::string& file_;
     GltfBuffers buffers_;
     CleanCopy copy_;
-    std::set<std::size_t> seen_;             ///< nodes of the file
-    std::map<std::size_t, ReadMesh> read_;   ///< meshes of the file
-    std::uint64_t storedNumbers_ = 0;        ///< corners and points in those meshes
-    std::uint64_t placedNumbers_ = 0;        ///< the same, once for every node with them
-    std::size_t leftOut_ = 0;                ///< sets of points or lines
+    std::set<std::size_t> seen_;            ///< nodes of the file
+    std::map<std::size_t, ReadMesh> read_;  ///< meshes of the file
+    std::uint64_t storedNumbers_ = 0;       ///< corners and points in those meshes
+    std::uint64_t placedNumbers_ = 0;       ///< the same, once for every node with them
+    std::size_t leftOut_ = 0;               ///< sets of points or lines
     bool moving_ = false;
     // The clean copy's objects, as text.
     std::vector<std::string> nodes_;

@@ -145,8 +145,8 @@ private:
             out += kMeanings[which];
         } else if (letter == 'u') {
             std::uint32_t code = readHex();
-            if (code >= 0xd800 && code < 0xdc00 && text_.substr(std::min(at_, text_.size()), 2) ==
-                                                       "\\u") {
+            if (code >= 0xd800 && code < 0xdc00 &&
+                text_.substr(std::min(at_, text_.size()), 2) == "\\u") {
                 at_ += 2;
                 code = 0x10000 + ((code - 0xd800) << 10) + (readHex() - 0xdc00);
             }
@@ -189,9 +189,8 @@ private:
     /// A number, true, false or null.
     void readWord(JsonValue& value)
     {
-        const std::size_t end =
-            std::min(text_.find_first_not_of("+-.0123456789abcdefghijklmnopqrstuvwxyzE", at_),
-                     text_.size());
+        const std::size_t end = std::min(
+            text_.find_first_not_of("+-.0123456789abcdefghijklmnopqrstuvwxyzE", at_), text_.size());
         const std::string_view word = text_.substr(at_, end - at_);
         if (word == "null") {
             value.kind = JsonValue::Kind::null;

@@ -13,10 +13,10 @@ struct JsonValue {
     enum class Kind { null, boolean, number, string, array, object };
 
     Kind kind = Kind::null;
-    double number = 0.0;             ///< number; boolean: 0 or 1
-    std::string text;                ///< string, decoded
-    std::vector<JsonValue> items;    ///< array; object: the values
-    std::vector<std::string> keys;   ///< object: of the items, each once
+    double number = 0.0;            ///< number; boolean: 0 or 1
+    std::string text;               ///< string, decoded
+    std::vector<JsonValue> items;   ///< array; object: the values
+    std::vector<std::string> keys;  ///< object: of the items, each once
 
     /// The value of an object's key; null if there is none or this is no object.
     const JsonValue* find(std::string_view key) const;

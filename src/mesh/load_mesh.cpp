@@ -56,9 +56,9 @@ std::string readRegularFile(const std::filesystem::path& path)
 std::optional<std::string> readSibling(const std::filesystem::path& folder, const std::string& name)
 {
     const std::filesystem::path relative(name);
-    const bool leadsAway =
-        relative.is_absolute() || name.find('\0') != name.npos || name.find(':') != name.npos ||
-        std::find(relative.begin(), relative.end(), "..") != relative.end();
+    const bool leadsAway = relative.is_absolute() || name.find('\0') != name.npos ||
+                           name.find(':') != name.npos ||
+                           std::find(relative.begin(), relative.end(), "..") != relative.end();
     if (name.empty() || leadsAway) {
         return std::nullopt;
     }

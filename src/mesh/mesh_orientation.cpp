@@ -88,8 +88,8 @@ double windingNumber(const TriangleMesh& mesh, const Part& part, const Vec3& p)
         const double la = a.norm();
         const double lb = b.norm();
         const double lc = c.norm();
-        angle += 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la +
-                                                         c.dot(a) * lb);
+        angle += 2.0 * std::atan2(a.dot(b.cross(c)),
+                                  la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
     }
     return angle / (4.0 * kPi);
 }

@@ -12,8 +12,8 @@ namespace sandflow {
 std::size_t alignNeighbours(TriangleMesh& mesh);
 
 struct TurnedParts {
-    std::size_t turned = 0;   ///< components
-    bool complete = true;     ///< false: so many components that they were not judged
+    std::size_t turned = 0;  ///< components
+    bool complete = true;    ///< false: so many components that they were not judged
 };
 
 /// Turns closed components round that are inside out, with all that lies inside them, so that a

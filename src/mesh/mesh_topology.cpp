@@ -62,7 +62,8 @@ void forEachSide(const TriangleMesh& mesh, Visit visit)
 
 MeshEdges findEdges(const TriangleMesh& mesh)
 {
-    // Sides by their lower point, by counting; then each point's few sides by the rest of their key.
+    // Sides by their lower point, by counting; then each point's few sides by the rest of their
+    // key.
     std::vector<std::size_t> first(mesh.points.size() + 1, 0);
     forEachSide(mesh, [&](const Side& side) { ++first[side.lo + 1]; });
     std::partial_sum(first.begin(), first.end(), first.begin());

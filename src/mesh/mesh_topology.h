@@ -20,8 +20,8 @@ struct MeshEdge {
 };
 
 struct MeshEdges {
-    std::vector<MeshEdge> edges;          ///< by (lo, hi)
-    std::vector<std::uint32_t> sides;     ///< triangles, edge by edge
+    std::vector<MeshEdge> edges;       ///< by (lo, hi)
+    std::vector<std::uint32_t> sides;  ///< triangles, edge by edge
 };
 
 MeshEdges findEdges(const TriangleMesh& mesh);
@@ -29,7 +29,7 @@ MeshEdges findEdges(const TriangleMesh& mesh);
 /// Which component each triangle belongs to: triangles with a common point are connected.
 struct MeshComponents {
     std::vector<std::uint32_t> ofTriangle;
-    std::uint32_t count = 0;              ///< numbered by their first triangle
+    std::uint32_t count = 0;  ///< numbered by their first triangle
 };
 
 MeshComponents findComponents(const TriangleMesh& mesh);

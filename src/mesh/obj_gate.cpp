@@ -123,12 +123,14 @@ private:
                        writer_.pointCount() + 1);
         }
         if ((count == 4 || count == 7) && numbers[3] != 1.0) {
-            refuseMesh(file_, "line {}: vertex {} has the weight {}; export the file without "
+            refuseMesh(file_,
+                       "line {}: vertex {} has the weight {}; export the file without "
                        "weights",
                        lines_.number(), writer_.pointCount() + 1, numbers[3]);
         }
         if (!writer_.addPoint({numbers[0], numbers[1], numbers[2]})) {
-            refuseMesh(file_, "line {}: vertex {} has the coordinates ({}, {}, {}), which are not "
+            refuseMesh(file_,
+                       "line {}: vertex {} has the coordinates ({}, {}, {}), which are not "
                        "finite in single precision; repair the file",
                        lines_.number(), writer_.pointCount() + 1, numbers[0], numbers[1],
                        numbers[2]);
@@ -141,7 +143,8 @@ private:
         const std::vector<std::string_view>& words = lines_.words();
         const std::size_t count = words.size() - 1;
         if (count < 3 || count > kMaxCorners) {
-            refuseMesh(file_, "line {}: face {} has {} corners, allowed are 3 to {}; repair or "
+            refuseMesh(file_,
+                       "line {}: face {} has {} corners, allowed are 3 to {}; repair or "
                        "split it",
                        lines_.number(), faceLines_.size() + 1, count, kMaxCorners);
         }
@@ -158,9 +161,8 @@ private:
     {
         const std::size_t slash = std::min(word.find('/'), word.size());
         const auto index = parseInteger(word.substr(0, slash));
-        const bool restGood =
-            word.find_first_not_of("0123456789/-", slash) == word.npos &&
-            std::count(word.begin(), word.end(), '/') <= 2;
+        const bool restGood = word.find_first_not_of("0123456789/-", slash) == word.npos &&
+                              std::count(word.begin(), word.end(), '/') <= 2;
         if (!index || !restGood) {
             refuseMesh(file_, "line {}: {} is no corner of a face; repair the file",
                        lines_.number(), quoteWord(word));
@@ -168,7 +170,8 @@ private:
         const auto points = static_cast<std::int64_t>(writer_.pointCount());
         const std::int64_t fromZero = *index > 0 ? *index - 1 : points + *index;
         if (*index == 0 || fromZero < 0) {
-            refuseMesh(file_, "line {}: face {} names vertex {}, which does not exist; repair the "
+            refuseMesh(file_,
+                       "line {}: face {} names vertex {}, which does not exist; repair the "
                        "file",
                        lines_.number(), faceLines_.size() + 1, *index);
         }
@@ -204,9 +207,9 @@ private:
     ObjLines lines_;
     PlyWriter writer_;
     std::vector<std::int64_t> corners_;
-    std::vector<std::size_t> faceEnds_;   ///< into corners_, one per face
+    std::vector<std::size_t> faceEnds_;  ///< into corners_, one per face
     std::vector<std::size_t> faceLines_;
-    std::size_t leftOut_ = 0;             ///< points and lines
+    std::size_t leftOut_ = 0;  ///< points and lines
 };
 
 }  // namespace

@@ -191,7 +191,8 @@ private:
             refuseMesh(file_, "face {} has more numbers than the header declares", index);
         }
         if (!writer_.addFace(corners_)) {
-            refuseMesh(file_, "face {} with {} corners crosses itself; split it into triangles in a "
+            refuseMesh(file_,
+                       "face {} with {} corners crosses itself; split it into triangles in a "
                        "modelling program",
                        index, corners_.size());
         }
@@ -214,7 +215,8 @@ private:
                 refuseShort("face", index, header_.face.count);
             }
             if (*corner < 0.0 || *corner >= static_cast<double>(writer_.pointCount())) {
-                refuseMesh(file_, "face {} names vertex {}, but there are only 0 to {}; repair the "
+                refuseMesh(file_,
+                           "face {} names vertex {}, but there are only 0 to {}; repair the "
                            "file",
                            index, *corner, writer_.pointCount() - 1);
             }

@@ -16,14 +16,22 @@ constexpr std::size_t kLongestHeader = 65536;  ///< bytes; real ones have a few 
 std::optional<PlyType> parseType(std::string_view word)
 {
     static constexpr std::array<std::pair<std::string_view, PlyType>, 16> names{{
-        {"char", PlyType::int8},     {"int8", PlyType::int8},
-        {"uchar", PlyType::uint8},   {"uint8", PlyType::uint8},
-        {"short", PlyType::int16},   {"int16", PlyType::int16},
-        {"ushort", PlyType::uint16}, {"uint16", PlyType::uint16},
-        {"int", PlyType::int32},     {"int32", PlyType::int32},
-        {"uint", PlyType::uint32},   {"uint32", PlyType::uint32},
-        {"float", PlyType::float32}, {"float32", PlyType::float32},
-        {"double", PlyType::float64}, {"float64", PlyType::float64},
+        {"char", PlyType::int8},
+        {"int8", PlyType::int8},
+        {"uchar", PlyType::uint8},
+        {"uint8", PlyType::uint8},
+        {"short", PlyType::int16},
+        {"int16", PlyType::int16},
+        {"ushort", PlyType::uint16},
+        {"uint16", PlyType::uint16},
+        {"int", PlyType::int32},
+        {"int32", PlyType::int32},
+        {"uint", PlyType::uint32},
+        {"uint32", PlyType::uint32},
+        {"float", PlyType::float32},
+        {"float32", PlyType::float32},
+        {"double", PlyType::float64},
+        {"float64", PlyType::float64},
     }};
     for (const auto& [name, type] : names) {
         if (name == word) {
@@ -101,7 +109,8 @@ PlyProperty parseProperty(const std::vector<std::string_view>& words, std::size_
     const auto type = parseType(typeWord);
     const auto countType = property.isList ? parseType(words[2]) : PlyType::uint8;
     if (!type || !countType) {
-        refuseMesh(file, "line {} of the PLY header names the unknown type {}; export the file "
+        refuseMesh(file,
+                   "line {} of the PLY header names the unknown type {}; export the file "
                    "again with float coordinates and int indices",
                    line, quoteWord(type ? words[2] : typeWord));
     }
@@ -147,8 +156,7 @@ void checkFace(const PlyElement& face, const std::string& file)
     if (face.count == 0) {
         refuseMesh(file, "the PLY file has points but no faces; export a surface, not a cloud");
     }
-    const auto lists =
-        std::count_if(face.properties.begin(), face.properties.end(), isIndexList);
+    const auto lists = std::count_if(face.properties.begin(), face.properties.end(), isIndexList);
     if (lists != 1) {
         refuseMesh(file,
                    "the PLY faces have {} lists vertex_indices, where one of integers is needed; "
@@ -172,9 +180,9 @@ PlyHeader sortElements(std::vector<PlyElement> elements, const std::string& file
     PlyHeader header;
     header.facesAreLast = std::all_of(elements.begin() + 2, elements.end(),
                                       [](const PlyElement& e) { return e.count == 0; });
-    const auto repeated = std::find_if(
-        elements.begin() + 2, elements.end(),
-        [](const PlyElement& e) { return e.name == "vertex" || e.name == "face"; });
+    const auto repeated =
+        std::find_if(elements.begin() + 2, elements.end(),
+                     [](const PlyElement& e) { return e.name == "vertex" || e.name == "face"; });
     if (repeated != elements.end()) {
         refuseMesh(file, "the PLY header declares two {} elements; export the file again",
                    repeated->name);

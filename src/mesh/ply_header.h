@@ -15,9 +15,9 @@ bool isInteger(PlyType type);
 
 struct PlyProperty {
     std::string name;
-    PlyType type = PlyType::float32;      ///< of the number, or of the numbers in the list
+    PlyType type = PlyType::float32;  ///< of the number, or of the numbers in the list
     bool isList = false;
-    PlyType countType = PlyType::uint8;   ///< lists: of the count before it
+    PlyType countType = PlyType::uint8;  ///< lists: of the count before it
 };
 
 struct PlyElement {
@@ -28,10 +28,10 @@ struct PlyElement {
 
 struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
-    PlyElement vertex;               ///< with x, y and z, no lists
-    PlyElement face;                 ///< with one list of indices
-    bool facesAreLast = true;        ///< no other element behind them
-    std::size_t bodyAt = 0;          ///< byte at which the numbers begin
+    PlyElement vertex;         ///< with x, y and z, no lists
+    PlyElement face;           ///< with one list of indices
+    bool facesAreLast = true;  ///< no other element behind them
+    std::size_t bodyAt = 0;    ///< byte at which the numbers begin
 };
 
 /// The list of a face that holds its corners.

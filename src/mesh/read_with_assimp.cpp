@@ -2,9 +2,9 @@
 
 #include "mesh/refuse_mesh.h"
 
-#include <assimp/Importer.hpp>
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -67,9 +67,9 @@ private:
     const std::string* find(std::string_view name) const
     {
         name.remove_prefix(name.rfind('/') + 1);  // npos + 1 is 0
-        return name == copy_.fileName            ? &copy_.bytes
+        return name == copy_.fileName           ? &copy_.bytes
                : name == CleanCopy::kBufferName ? &copy_.buffer
-                                                 : nullptr;
+                                                : nullptr;
     }
 
     const CleanCopy& copy_;

@@ -112,14 +112,14 @@ private:
                 p == b || p == c) {
                 return false;
             }
-            const double least = std::min({cross(b - a, p - a), cross(c - b, p - b),
-                                           cross(a - c, p - c)});
+            const double least =
+                std::min({cross(b - a, p - a), cross(c - b, p - b), cross(a - c, p - c)});
             return kind == Ear::clear ? least >= 0.0 : least > 0.0;
         });
     }
 
-    std::vector<Vec2> flat_;            ///< the corners seen along the normal
-    std::vector<std::uint32_t> left_;   ///< those not cut off yet, in their order
+    std::vector<Vec2> flat_;           ///< the corners seen along the normal
+    std::vector<std::uint32_t> left_;  ///< those not cut off yet, in their order
     std::size_t start_ = 0;
 };
 

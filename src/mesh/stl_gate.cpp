@@ -9,9 +9,9 @@
 namespace sandflow {
 namespace {
 
-constexpr std::size_t kHeaderSize = 80;                  ///< bytes of free text
-constexpr std::size_t kBodyAt = kHeaderSize + 4;         ///< behind the number of triangles
-constexpr std::size_t kTriangleSize = 12 * 4 + 2;        ///< normal, three corners, attributes
+constexpr std::size_t kHeaderSize = 80;            ///< bytes of free text
+constexpr std::size_t kBodyAt = kHeaderSize + 4;   ///< behind the number of triangles
+constexpr std::size_t kTriangleSize = 12 * 4 + 2;  ///< normal, three corners, attributes
 
 /// Makes the clean copy: binary, with empty header, normals and attributes.
 class StlWriter {
@@ -172,7 +172,8 @@ CleanCopy passBinary(std::string_view bytes, std::uint32_t count, const std::str
                                           Vec3(numbers[3], numbers[4], numbers[5]),
                                           Vec3(numbers[6], numbers[7], numbers[8])};
         if (!writer.addTriangle(corners)) {
-            refuseMesh(file, "triangle {} of {} has a coordinate that is not finite; repair the "
+            refuseMesh(file,
+                       "triangle {} of {} has a coordinate that is not finite; repair the "
                        "file",
                        t + 1, count);
         }
@@ -198,7 +199,8 @@ CleanCopy passStl(std::string_view bytes, const std::string& file)
         return TextStl(bytes, file).pass();
     }
     if (bytes.size() < kBodyAt) {
-        refuseMesh(file, "the file has {} bytes and does not begin with \"solid\"; it is no STL "
+        refuseMesh(file,
+                   "the file has {} bytes and does not begin with \"solid\"; it is no STL "
                    "file",
                    bytes.size());
     }

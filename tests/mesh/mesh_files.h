@@ -1,9 +1,8 @@
 #pragma once
 
+#include "core/errors.h"
 #include "mesh/load_mesh.h"
 #include "mesh/shapes.h"
-
-#include "core/errors.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -207,7 +206,8 @@ inline std::string encodeBase64(const std::string& bytes)
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         unsigned bits = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
+            bits =
+                bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
         }
         for (std::size_t k = 0; k < 4; ++k) {
             text += i + k > bytes.size() ? '=' : kDigits[(bits >> (18 - 6 * k)) & 63];
@@ -218,9 +218,9 @@ inline std::string encodeBase64(const std::string& bytes)
 
 inline std::string writeGltf(const TriangleMesh& mesh, const std::string& nodes = R"({"mesh":0})")
 {
-    return gltfJson(mesh, nodes,
-                    R"(,"uri":"data:application/octet-stream;base64,)" +
-                        encodeBase64(gltfBuffer(mesh)) + "\"");
+    return gltfJson(
+        mesh, nodes,
+        R"(,"uri":"data:application/octet-stream;base64,)" + encodeBase64(gltfBuffer(mesh)) + "\"");
 }
 
 inline std::string writeGlb(const TriangleMesh& mesh, const std::string& nodes = R"({"mesh":0})")
@@ -236,6 +236,13 @@ inline std::string writeGlb(const TriangleMesh& mesh, const std::string& nodes =
     putNumber(bytes, static_cast<std::uint32_t>(buffer.size()));
     return bytes + std::string("BIN\0", 4) + buffer;
 }
+
+/// What a load may take, s of processor time; builds that check themselves are slower.
+#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+inline constexpr double kLongestLoad = 2.0;
+#else
+inline constexpr double kLongestLoad = 100.0;
+#endif
 
 struct MeshFile {
     std::string name;

@@ -1,6 +1,5 @@
-#include "mesh_files.h"
-
 #include "io/temp_folder.h"
+#include "mesh_files.h"
 
 #include <sys/stat.h>
 
@@ -42,9 +41,9 @@ TEST(LoadMesh, LineEndsBlanksAndEndingsMayVary)
     // A binary body may begin with the byte of a line feed.
     const std::string plain = writePlainPly(makeTestBox());
     const std::size_t body = plain.find("end_header\n") + 11;
-    expectBox(loadBytes(replacedAll(plain.substr(0, body), "\n", "\r\n") + plain.substr(body),
-                        ".ply"),
-              "CR LF before binary");
+    expectBox(
+        loadBytes(replacedAll(plain.substr(0, body), "\n", "\r\n") + plain.substr(body), ".ply"),
+        "CR LF before binary");
     expectBox(loadBytes(writePly(makeTestBox()), ".PLY"), "upper case");
     expectBox(loadBytes(writeGlb(makeTestBox()), ".Glb"), "mixed case");
 }
@@ -155,8 +154,8 @@ TEST(LoadMesh, TheFileMustBeARegularFileOfAKnownKind)
     }
 }
 
-/// 600 polygons of 256 corners on a double spiral, the worst for cutting off ears: 0.6 MB.
-TEST(LoadMesh, SpiralPolygonsTakeLessThanTwoSeconds)
+/// 300 polygons of 256 corners on a double spiral, the worst for cutting off ears: 0.3 MB.
+TEST(LoadMesh, SpiralPolygonsTakeNoLongerThanOthers)
 {
     std::string points;
     std::string face = "256";
@@ -167,7 +166,7 @@ TEST(LoadMesh, SpiralPolygonsTakeLessThanTwoSeconds)
         points += fmt::format("{} {} 0\n", radius * std::cos(angle), radius * std::sin(angle));
         face += fmt::format(" {}", k);
     }
-    constexpr int kFaces = 600;
+    constexpr int kFaces = 300;
     std::string off = fmt::format("OFF\n256 {} 0\n", kFaces) + points;
     for (int f = 0; f < kFaces; ++f) {
         off += face + "\n";
@@ -175,8 +174,8 @@ TEST(LoadMesh, SpiralPolygonsTakeLessThanTwoSeconds)
     const std::clock_t start = std::clock();
     const std::string refusal = refusalOf(off, ".off");
     RecordProperty("seconds", std::to_string(secondsSince(start)));
-    RecordProperty("refusal", refusal);
-    EXPECT_LT(secondsSince(start), 2.0) << refusal;
+    EXPECT_EQ(refusal, "");
+    EXPECT_LT(secondsSince(start), kLongestLoad);
 }
 
 }  // namespace
