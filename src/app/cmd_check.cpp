@@ -1,4 +1,5 @@
 #include "app/commands.h"
+#include "app/mesh_figures.h"
 #include "app/run_costs.h"
 #include "app/scene_doubts.h"
 #include "io/json_writer.h"
@@ -25,6 +26,7 @@ struct CheckReport {
     RunPlan plan;
     std::vector<EmitterPlan> emitters;
     RunCosts costs;
+    std::vector<MeshFigures> meshes;
     std::vector<std::string> doubts;
 };
 
@@ -50,10 +52,12 @@ CheckReport makeReport(const Scene& scene)
 {
     CheckReport report;
     // Made as for a run, so that whatever a run would refuse is refused here.
-    report.plan = makeSimulation(scene)->plan();
+    const std::unique_ptr<Simulation> sand = makeSimulation(scene);
+    report.plan = sand->plan();
+    report.meshes = describeMeshes(scene, sand->solids());
     report.emitters = planEmitters(scene);
     report.costs = estimateCosts(scene, report.plan, report.emitters);
-    report.doubts = findDoubts(scene, report.plan);
+    report.doubts = findDoubts(scene, sand->solids(), report.plan);
     if (report.costs.memoryBytes > machineMemory()) {
         report.doubts.push_back(
             fmt::format("it needs about {:.3g} GB of memory, and this machine has {:.3g} GB",
@@ -77,6 +81,11 @@ std::string formatJson(const Scene& scene, const CheckReport& report)
         json.member("kind", nameOf(words::kKinds, scene.emitters[e].kind));
         json.member("grains", emitter.count).member("start_s", emitter.start);
         json.member("end_s", emitter.end).endObject();
+    }
+    json.endArray();
+    json.key("meshes").beginArray();
+    for (const MeshFigures& mesh : report.meshes) {
+        writeMesh(json, mesh);
     }
     json.endArray();
     json.key("load").beginObject();
@@ -125,6 +134,9 @@ std::string formatText(const Scene& scene, const CheckReport& report)
                             emitter.end > emitter.start
                                 ? fmt::format("{:.4g} s to {:.4g} s", emitter.start, emitter.end)
                                 : fmt::format("all at {:.4g} s", emitter.start));
+    }
+    for (const MeshFigures& mesh : report.meshes) {
+        text += "  " + formatMesh(mesh) + '\n';
     }
     text += fmt::format("grains     {} in all, radii {:.4g} to {:.4g} mm\n", plan.grains,
                         1e3 * plan.load.minRadius, 1e3 * plan.load.maxRadius);

@@ -21,10 +21,26 @@ struct Nearest {
     int solid = -1;
 };
 
-Nearest findNearest(std::span<const Primitive> primitives, const Vec3& point, double time)
+/// A mesh is known by the box about it and, in there, by what is inside: to half a radius at best.
+void comeNearMesh(const MeshSolid& mesh, const Vec3& point, double radius, Nearest& nearest)
+{
+    const double away = std::sqrt(mesh.columns.bounds().squaredExteriorDistance(point));
+    const bool touches = away == 0.0 && mesh.columns.contains(point - radius * Vec3::UnitZ());
+    const double distance = touches ? 0.0 : std::max(away, 1.01 * radius);
+    if (distance < nearest.surface.distance) {
+        nearest = {{distance, Vec3::UnitZ()}, mesh.solid};
+    }
+}
+
+Nearest findNearest(const SolidSet& solids, const Vec3& point, double time, double radius)
 {
     Nearest nearest;
-    for (const Primitive& primitive : primitives) {
+    for (const MeshSolid& mesh : solids.meshes()) {
+        if (mesh.existsAt(time)) {
+            comeNearMesh(mesh, point, radius, nearest);
+        }
+    }
+    for (const Primitive& primitive : solids.primitives()) {
         if (!primitive.existsAt(time)) {
             continue;
         }
@@ -38,7 +54,7 @@ Nearest findNearest(std::span<const Primitive> primitives, const Vec3& point, do
 
 }  // namespace
 
-Flight followGrain(const Scene& scene, std::span<const Primitive> primitives, const Vec3& position,
+Flight followGrain(const Scene& scene, const SolidSet& solids, const Vec3& position,
                    const Vec3& velocity, double start)
 {
     const double g = scene.gravity.norm();
@@ -48,7 +64,7 @@ Flight followGrain(const Scene& scene, std::span<const Primitive> primitives, co
     Vec3 place = position, motion = velocity;
     double time = start;
     for (int step = 0; step < kMostSteps; ++step) {
-        const Nearest nearest = findNearest(primitives, place, time);
+        const Nearest nearest = findNearest(solids, place, time, radius);
         if (nearest.surface.distance > kLost) {
             break;
         }

@@ -1,10 +1,9 @@
 #pragma once
 
 #include "scene/scene.h"
-#include "solids/primitive.h"
+#include "solids/solid_set.h"
 
 #include <optional>
-#include <span>
 
 namespace sandflow {
 
@@ -26,7 +25,7 @@ struct Flight {
 
 /// Follows a grain of mean radius from position [m] with velocity [m/s] at time `start` [s] through
 /// the solids; other grains do not count.
-Flight followGrain(const Scene& scene, std::span<const Primitive> primitives, const Vec3& position,
+Flight followGrain(const Scene& scene, const SolidSet& solids, const Vec3& position,
                    const Vec3& velocity, double start);
 
 }  // namespace sandflow

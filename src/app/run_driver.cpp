@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 
 namespace sandflow {
 namespace {
@@ -70,6 +71,29 @@ void printPlan(const Scene& scene, const RunPlan& plan)
                plan.step.reason);
 }
 
+/// The scene as it was run: its meshes are named so that they are found from the run folder too.
+Scene resolveMeshes(Scene scene, const SolidSet& solids)
+{
+    for (const MeshSolid& mesh : solids.meshes()) {
+        SolidSpec& solid = scene.solids[static_cast<std::size_t>(mesh.solid)];
+        solid.mesh = std::filesystem::absolute(mesh.file).string();
+        solid.standIn.clear();
+    }
+    return scene;
+}
+
+/// For the picture; none if there is no picture.
+std::vector<SceneMesh> copyMeshes(const SolidSet& solids, bool wanted)
+{
+    std::vector<SceneMesh> copies;
+    for (const MeshSolid& mesh : solids.meshes()) {
+        if (wanted) {
+            copies.push_back({static_cast<std::size_t>(mesh.solid), mesh.mesh});
+        }
+    }
+    return copies;
+}
+
 }  // namespace
 
 ExitCode runScene(const RunOptions& options)
@@ -88,10 +112,14 @@ ExitCode runScene(const RunOptions& options)
     if (!options.quiet) {
         printPlan(scene, plan);
     }
-    writeFileAtomically(folder.scenePath(), writeScene(scene));
+    for (const std::string& notice : sand->solids().notices()) {
+        fmt::print(stderr, "note: {}\n", notice);
+    }
+    writeFileAtomically(folder.scenePath(), writeScene(resolveMeshes(scene, sand->solids())));
+    const std::vector<SceneMesh> meshes = copyMeshes(sand->solids(), !options.noFrames);
     if (!options.noFrames) {
         writePovScene(folder.path(), findPovrayFolder(), scene,
-                      {frames, estimateSandBox(scene)});
+                      {frames, estimateSandBox(scene, meshes)}, meshes);
     }
 
     FrameLog log(folder.frameLogPath());
@@ -116,7 +144,7 @@ ExitCode runScene(const RunOptions& options)
             if (options.keepStates) {
                 writeState(folder.statePath(f), snapshot);
             }
-            summary.add(report);
+            summary.add(report, sand->countLeaks());
         }
         row.wall = wall;
         summary.addWall(row);
@@ -125,7 +153,8 @@ ExitCode runScene(const RunOptions& options)
     }
     writeState(folder.lastStatePath(), snapshot);
     if (!options.noFrames) {
-        writePovScene(folder.path(), findPovrayFolder(), scene, {frames, measureSandBox(snapshot)});
+        writePovScene(folder.path(), findPovrayFolder(), scene, {frames, measureSandBox(snapshot)},
+                      meshes);
     }
     summary.finish(*sand, snapshot);
     folder.writeSummary(summary.json());

@@ -42,8 +42,9 @@ std::string findPovrayFolder()
     return folder;
 }
 
-void RunSummary::add(const FrameReport& report)
+void RunSummary::add(const FrameReport& report, std::uint64_t leaks)
 {
+    leaks_ += leaks;
     reports_.push_back(report);
     transfer_ += report.transfer;
 }
@@ -55,7 +56,7 @@ void RunSummary::addWall(const FrameRow& row)
 
 void RunSummary::finish(const Simulation& sand, const Snapshot& last)
 {
-    leaks_ = sand.countLeaks();
+    meshes_ = describeMeshes(scene_, sand.solids());
     hash_ = sand.stateHash();
     bytesMobile_ = sand.bytesMobile();
     bytesBuried_ = sand.bytesBuried();
@@ -121,6 +122,11 @@ JsonWriter RunSummary::json() const
         json.null();
     }
     json.member("apex_m", apex_).member("r90_m", r90_).endObject();
+    json.key("meshes").beginArray();
+    for (const MeshFigures& mesh : meshes_) {
+        writeMesh(json, mesh);
+    }
+    json.endArray();
     json.key("transfer").beginObject();
     json.member("trapped", transfer_.trapped).member("dislodged", transfer_.dislodged);
     json.member("buried", transfer_.buried).member("uncovered", transfer_.uncovered);

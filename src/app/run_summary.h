@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/mesh_figures.h"
 #include "io/frame_row.h"
 #include "io/json_writer.h"
 #include "solver/simulation.h"
@@ -17,7 +18,8 @@ class RunSummary {
 public:
     RunSummary(const Scene& scene, const RunPlan& plan) : scene_(scene), plan_(plan) {}
 
-    void add(const FrameReport& report);
+    /// leaks: grain centres inside solids at the end of the frame.
+    void add(const FrameReport& report, std::uint64_t leaks);
     void addWall(const FrameRow& row);
     void finish(const Simulation& sand, const Snapshot& last);
 
@@ -34,6 +36,7 @@ private:
     std::size_t bytesMobile_ = 0, bytesBuried_ = 0;
     double apex_ = 0, r90_ = 0;
     std::optional<double> repose_;
+    std::vector<MeshFigures> meshes_;
 
     double meanWall() const;
 };

@@ -78,12 +78,9 @@ Vec3 startingVelocity(const EmitterSpec& emitter)
 
 class DoubtFinder {
 public:
-    DoubtFinder(const Scene& scene, const RunPlan& plan) : scene_(scene), plan_(plan)
+    DoubtFinder(const Scene& scene, const SolidSet& solids, const RunPlan& plan)
+        : scene_(scene), solids_(solids), plan_(plan), doubts_(solids.notices())
     {
-        for (std::size_t s = 0; s < scene.solids.size(); ++s) {
-            const auto parts = buildPrimitives(scene.solids[s], static_cast<int>(s));
-            primitives_.insert(primitives_.end(), parts.begin(), parts.end());
-        }
     }
 
     std::vector<std::string> find()
@@ -197,7 +194,7 @@ private:
         std::optional<Impact> fastest;
         for (const Vec3& place : places) {
             const Flight flight =
-                followGrain(scene_, primitives_, place, startingVelocity(emitter), emitter.start);
+                followGrain(scene_, solids_, place, startingVelocity(emitter), emitter.start);
             lost += flight.landing ? 0 : 1;
             if (flight.first && (!fastest || flight.first->speed > fastest->speed)) {
                 fastest = flight.first;
@@ -220,21 +217,27 @@ private:
     /// True, with a doubt, if any of the places is inside a filled solid.
     bool doubtInside(const std::vector<Vec3>& places, double time, const std::string& label)
     {
-        for (const Primitive& primitive : primitives_) {
-            const bool isFilled = primitive.kind == Primitive::Kind::halfSpace ||
-                                  primitive.kind == Primitive::Kind::solidBox ||
-                                  primitive.kind == Primitive::Kind::solidCylinder;
-            if (!isFilled || !primitive.existsAt(time)) {
-                continue;
-            }
-            const auto inside = std::count_if(places.begin(), places.end(), [&](const Vec3& p) {
-                return nearestSurface(primitive, p).distance < 0.0;
-            });
+        const auto doubtSolidAt = [&](int index, const auto& holds) {
+            const auto inside = std::count_if(places.begin(), places.end(), holds);
             if (inside > 0) {
-                const auto solid = static_cast<std::size_t>(primitive.solid);
+                const auto solid = static_cast<std::size_t>(index);
                 doubt("{} lies {}inside {}: grains that start there are held back", label,
                       inside < static_cast<std::ptrdiff_t>(places.size()) ? "partly " : "",
                       labelOf("solids", solid, scene_.solids[solid].name));
+            }
+            return inside > 0;
+        };
+        for (const Primitive& primitive : solids_.primitives()) {
+            if (primitive.existsAt(time) && doubtSolidAt(primitive.solid, [&](const Vec3& p) {
+                    return nearestSurface(primitive, p).distance < 0.0;
+                })) {
+                return true;
+            }
+        }
+        for (const MeshSolid& mesh : solids_.meshes()) {
+            if (mesh.existsAt(time) && doubtSolidAt(mesh.solid, [&](const Vec3& p) {
+                    return mesh.columns.contains(p);
+                })) {
                 return true;
             }
         }
@@ -242,16 +245,17 @@ private:
     }
 
     const Scene& scene_;
+    const SolidSet& solids_;
     const RunPlan& plan_;
-    std::vector<Primitive> primitives_;
     std::vector<std::string> doubts_;
 };
 
 }  // namespace
 
-std::vector<std::string> findDoubts(const Scene& scene, const RunPlan& plan)
+std::vector<std::string> findDoubts(const Scene& scene, const SolidSet& solids,
+                                    const RunPlan& plan)
 {
-    return DoubtFinder(scene, plan).find();
+    return DoubtFinder(scene, solids, plan).find();
 }
 
 }  // namespace sandflow

@@ -9,7 +9,8 @@
 namespace sandflow {
 
 /// What is allowed but probably not meant, or will look odd: one sentence each, with a remedy where
-/// there is one. Throws InputError for a solid that cannot be built.
-std::vector<std::string> findDoubts(const Scene& scene, const RunPlan& plan);
+/// there is one. What the meshes have to say comes first.
+std::vector<std::string> findDoubts(const Scene& scene, const SolidSet& solids,
+                                    const RunPlan& plan);
 
 }  // namespace sandflow

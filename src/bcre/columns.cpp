@@ -154,6 +154,7 @@ void ColumnGrid::appendSpan(const FreeInterval& interval, std::int32_t i, std::i
     R.push_back(0.0);
     dh.push_back(0.0);
     sink.push_back(interval.floor < kBottomless ? 1 : 0);
+    ragged.push_back(interval.ragged ? 1 : 0);
     columnI.push_back(i);
     columnJ.push_back(j);
     link.push_back({kNone, kNone, kNone, kNone});
@@ -245,6 +246,7 @@ void ColumnGrid::rebuildSpans(std::vector<std::pair<std::int32_t, std::int32_t>>
     const auto oldFlow = std::exchange(R, {});
     const auto oldChange = std::exchange(dh, {});
     const auto oldSink = std::exchange(sink, {});
+    ragged.clear();
     columnI.clear();
     columnJ.clear();
     link.clear();

@@ -34,6 +34,7 @@ public:
     struct FreeInterval {
         double floor;     ///< m, -1e30 when there is no solid below
         double ceiling;   ///< m, 1e30 when open above
+        bool ragged = false;
     };
     using SpanSource = std::function<void(double x, double y, std::vector<FreeInterval>& out)>;
     /// True if sand cannot pass between two neighbouring columns at heights [lo, hi].
@@ -93,6 +94,9 @@ public:
     /// 1: flowing sand that reaches the span leaves the field and h does not change (the edge of an
     /// open table). 0 by default, 1 where there is no floor.
     std::vector<std::uint8_t> sink;
+    /// 1: parts of the column's area stand at quite other levels (a wall, the rim of an overhang), so
+    /// what lies below h there need not be covered by sand.
+    std::vector<std::uint8_t> ragged;
     std::vector<std::int32_t> columnI, columnJ;
     /// Neighbouring span at -x, +x, -y, +y; kNone at a wall or where no tile exists yet.
     std::vector<std::array<std::int32_t, 4>> link;

@@ -39,6 +39,14 @@ struct Workspace {
 
 /// Rouy-Tourin: along each axis the drop to the lower of the two linked neighbours. Erosion digs a
 /// slope from its foot, so that is where the information comes from.
+/// True where sand reaches the ceiling, to a quarter of a column's edge (grains seldom fill the last
+/// diameter): nothing enters there, so the bed beside it has no drop towards it.
+bool isFull(const ColumnGrid& columns, std::size_t span)
+{
+    return columns.h[span] + columns.R[span] >=
+           columns.ceiling[span] - 0.25 * columns.cellSize();
+}
+
 void findSlopes(const ColumnGrid& columns, Slopes& slopes)
 {
     const std::size_t count = columns.spanCount();
@@ -51,13 +59,19 @@ void findSlopes(const ColumnGrid& columns, Slopes& slopes)
             double drop[4];
             for (int direction = 0; direction < 4; ++direction) {
                 const std::int32_t other = columns.link[s][direction];
-                drop[direction] = other == ColumnGrid::kNone ? 0.0 : h[s] - h[other];
+                drop[direction] = other == ColumnGrid::kNone ||
+                                          isFull(columns, static_cast<std::size_t>(other))
+                                      ? 0.0
+                                      : h[s] - h[other];
             }
             slopes.x[s] = std::max({drop[0], drop[1], 0.0}) * perCell;
             slopes.y[s] = std::max({drop[2], drop[3], 0.0}) * perCell;
         }
     });
     for (const ColumnGrid::ExtraLink& extra : columns.extraLinks) {
+        if (isFull(columns, static_cast<std::size_t>(extra.other))) {
+            continue;
+        }
         double& slope = (extra.direction < 2 ? slopes.x : slopes.y)[extra.span];
         slope = std::max(slope, (h[extra.span] - h[extra.other]) * perCell);
     }
@@ -72,11 +86,10 @@ double flowAcross(const ColumnGrid& columns, const Slopes& slopes, std::size_t s
     if (slope == 0.0) {
         return 0.0;
     }
-    // First-order upwind: grains come from the higher bed. The lower span may be full to its
-    // ceiling; then nothing enters.
+    // First-order upwind: grains come from the higher bed.
     const std::size_t from = slope > 0.0 ? s : other;
     const std::size_t to = slope > 0.0 ? other : s;
-    if (columns.R[from] == 0.0 || columns.h[to] + columns.R[to] >= columns.ceiling[to]) {
+    if (columns.R[from] == 0.0 || isFull(columns, to)) {
         return 0.0;
     }
     // Direction of flow -grad h / |grad h|: the face sees its own normal component, and the

@@ -28,6 +28,7 @@ Dem<Real>::Dem(const DemSetup& setup)
       observingKernel_(makeForceKernel<Real>(setup.law, true))
 {
     mobile_.judged = setup_.judged;
+    meshStands_.resize(setup_.meshCovers.size(), 0);
     for (std::size_t p = 0; p < setup_.primitives.size(); ++p) {
         if (setup_.primitives[p].rough) {
             covers_.push_back({p,
@@ -123,6 +124,7 @@ void Dem<Real>::rebuild(double time, double dt)
 {
     recordContacts();
     contactsRecorded_ = false;
+    coverMeshes(time);
     lists_.rebuild(chooseHorizon(dt), mobile_, frozen_, boundary_, setup_.primitives, time,
                    book_, [&](const SortedCells& cells) { coverRoughSolids(cells, time); });
     mobile_.next.resize(mobile_.size());
@@ -154,6 +156,29 @@ double Dem<Real>::chooseHorizon(double dt) const
                       setup_.longestHorizon * dt);
 }
 
+/// Puts in the particles of meshes that have appeared and takes out those of meshes that are gone.
+/// They are looked at only from cells with mobile grains, like all that is fixed.
+template <class Real>
+void Dem<Real>::coverMeshes(double time)
+{
+    for (std::size_t m = 0; m < meshStands_.size(); ++m) {
+        const MeshCover& mesh = setup_.meshCovers[m];
+        const bool stands = mesh.existsAt(time);
+        if (stands == static_cast<bool>(meshStands_[m])) {
+            continue;
+        }
+        meshStands_[m] = stands ? 1 : 0;
+        const auto cover = static_cast<std::uint32_t>(setup_.primitives.size() + m);
+        if (!stands) {
+            boundary_.removeUnless([&](std::size_t k) { return boundary_.info(k).cover != cover; });
+            continue;
+        }
+        for (const Vec3& p : mesh.centres) {
+            boundary_.add(makeRecord(p, mesh.radius, kFirstBoundaryId + boundaryIds_++), {cover});
+        }
+    }
+}
+
 /// Makes the fixed particles of rough planes wherever a mobile grain may touch them before the next
 /// rebuild. What was made stays.
 template <class Real>
@@ -163,6 +188,11 @@ void Dem<Real>::coverRoughSolids(const SortedCells& cells, double time)
     for (Cover& cover : covers_) {
         const Primitive& plane = setup_.primitives[cover.primitive];
         if (!plane.existsAt(time)) {
+            if (cover.made.size() > 0) {  // it is gone for good
+                cover.made.clear();
+                boundary_.removeUnless(
+                    [&](std::size_t k) { return boundary_.info(k).cover != cover.primitive; });
+            }
             continue;
         }
         for (std::size_t c = 0; c < cells.cells().size(); ++c) {
@@ -193,7 +223,7 @@ void Dem<Real>::coverRoughSolids(const SortedCells& cells, double time)
                         const Vec3 sunk = p - kRoughCoverDepth * setup_.meanRadius * plane.axis;
                         boundary_.add(makeRecord(sunk, setup_.meanRadius,
                                                  kFirstBoundaryId + boundaryIds_++),
-                                      {});
+                                      {static_cast<std::uint32_t>(cover.primitive)});
                     }
                 }
             }

@@ -16,6 +16,15 @@
 
 namespace sandflow {
 
+/// Fixed particles that stand for the surface of a mesh.
+struct MeshCover {
+    double from = 0.0, until = 1e30;  ///< s
+    std::span<const Vec3> centres;    ///< m; owned by the caller
+    double radius = 0.0;              ///< m
+
+    bool existsAt(double time) const { return time >= from && time < until; }
+};
+
 /// What the grain solver is made from. SI.
 struct DemSetup {
     ContactCoefficients law;
@@ -24,6 +33,7 @@ struct DemSetup {
     double density = 2600.0;
     Vec3 gravity = Vec3(0.0, 0.0, -kGravity);
     std::vector<Primitive> primitives;
+    std::vector<MeshCover> meshCovers;
     std::uint64_t seed = 1;
     double skin = 0.3;          ///< in mean radii: how far a resting grain may move before lists end
     bool judged = true;         ///< mobile grains keep clocks of rest and loads (surface flow)
@@ -88,6 +98,7 @@ private:
     void listNewcomer();
     bool hasRoomFor(const SearchBall& ball) const;
     bool isCovered(const Vec3& centre, double range) const;
+    void coverMeshes(double time);
     void coverRoughSolids(const SortedCells& cells, double time);
 
     DemSetup setup_;
@@ -105,7 +116,8 @@ private:
         RoughCover cover;
         CellMap made;
     };
-    std::vector<Cover> covers_;
+    std::vector<Cover> covers_;            ///< of rough planes
+    std::vector<std::uint8_t> meshStands_;  ///< 1: the particles of that mesh are there
     std::uint32_t boundaryIds_ = 0;
 
     bool listsHold_ = false;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace sandflow {
@@ -46,7 +47,9 @@ std::unique_ptr<Emitter> makeEmitter(const Scene& scene, std::size_t index);
 double lastEmissionTime(const Scene& scene);
 
 /// Fastest speed at which any grain can hit something, m/s: energy from emission speed and height
-/// above the lowest solid (or lowest emitter when there is none), over all emitters.
-double fastestPossibleSpeed(const Scene& scene);
+/// above the lowest solid (or lowest emitter when there is none), over all emitters. The scene does
+/// not know how far its meshes reach: meshBounds are boxes about them.
+double fastestPossibleSpeed(const Scene& scene,
+                            std::span<const Eigen::AlignedBox3d> meshBounds = {});
 
 }  // namespace sandflow

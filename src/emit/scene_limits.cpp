@@ -47,10 +47,12 @@ Box startingBox(const EmitterSpec& spec, const GrainSpec& grains)
             return {spec.position - reach, spec.position + reach};
         }
         case EmitterKind::slot: {
+            // Its width lies level, its height across that; see EmitterSpec::size.
+            const Vec3 level = Vec3::UnitZ().cross(spec.direction);
+            const Vec3 width = level.norm() > 1e-9 ? Vec3(level.normalized()) : Vec3(Vec3::UnitX());
+            const Vec3 height = spec.direction.cross(width);
             const Vec3 reach =
-                Vec3::Constant(0.5 * spec.size.norm())
-                    .cwiseProduct(
-                        (Vec3::Ones() - spec.direction.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt());
+                0.5 * (spec.size.x() * width.cwiseAbs() + spec.size.y() * height.cwiseAbs());
             return {spec.position - reach, spec.position + reach};
         }
         case EmitterKind::block:
@@ -69,7 +71,7 @@ Box startingBox(const EmitterSpec& spec, const GrainSpec& grains)
 }
 
 /// Height along `up` of the lowest part of a solid on which sand that starts in the box can land.
-/// None for walls and for meshes, whose extent is in their file.
+/// None for walls and for meshes.
 std::optional<double> solidLevel(const SolidSpec& solid, const Box& start, const Vec3& up)
 {
     switch (solid.shape) {
@@ -105,11 +107,15 @@ std::optional<double> solidLevel(const SolidSpec& solid, const Box& start, const
 }
 
 /// The lowest level at which grains from the box can hit something.
-double lowestLevel(const Scene& scene, const Box& start, double lowestEmitter, const Vec3& up)
+double lowestLevel(const Scene& scene, std::span<const Eigen::AlignedBox3d> meshBounds,
+                   const Box& start, double lowestEmitter, const Vec3& up)
 {
     double level = kInfinity;
     for (const SolidSpec& solid : scene.solids) {
         level = std::min(level, solidLevel(solid, start, up).value_or(kInfinity));
+    }
+    for (const Eigen::AlignedBox3d& mesh : meshBounds) {
+        level = std::min(level, Box{mesh.min(), mesh.max()}.bottom(up));
     }
     if (level == kInfinity || level > start.top(up)) {
         level = std::min(lowestEmitter, start.bottom(up));
@@ -142,7 +148,8 @@ double lastEmissionTime(const Scene& scene)
     return last;
 }
 
-double fastestPossibleSpeed(const Scene& scene)
+double fastestPossibleSpeed(const Scene& scene,
+                            std::span<const Eigen::AlignedBox3d> meshBounds)
 {
     const double g = scene.gravity.norm();
     const Vec3 up = g > 0.0 ? Vec3(-scene.gravity / g) : Vec3::UnitZ();
@@ -153,7 +160,7 @@ double fastestPossibleSpeed(const Scene& scene)
     double fastest = 0.0;
     for (const EmitterSpec& spec : scene.emitters) {
         const Box start = startingBox(spec, scene.grains);
-        const double fall = start.top(up) - lowestLevel(scene, start, lowestEmitter, up);
+        const double fall = start.top(up) - lowestLevel(scene, meshBounds, start, lowestEmitter, up);
         const double speed = isJet(spec) ? spec.speed : spec.velocity.norm();
         // v^2 = v0^2 + 2 g H, whichever way v0 points.
         fastest = std::max(fastest, std::sqrt(speed * speed + 2.0 * g * std::max(0.0, fall)));

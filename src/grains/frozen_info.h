@@ -17,7 +17,9 @@ struct FrozenInfo {
     Vec3f restForce = Vec3f::Zero(); ///< N, sum of normal forces when it came to rest
 };
 
-/// Fixed particles of rough solids carry nothing else.
-struct BoundaryInfo {};
+/// Of a fixed particle that makes a solid rough.
+struct BoundaryInfo {
+    std::uint32_t cover = 0;  ///< which of the solver's covers it belongs to
+};
 
 }  // namespace sandflow

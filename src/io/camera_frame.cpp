@@ -1,5 +1,7 @@
 #include "io/camera_frame.h"
 
+#include "core/errors.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -40,9 +42,34 @@ void addCorners(std::vector<Vec3>& points, const Vec3& min, const Vec3& max)
     }
 }
 
+/// The points of a mesh that stick out most in 100 directions; no other sticks out by much more.
+void addOutermost(std::vector<Vec3>& points, const TriangleMesh& mesh)
+{
+    constexpr int directions = 100;
+    std::vector<Vec3> used;  // a point without a triangle is not seen
+    for (const auto& triangle : mesh.triangles) {
+        for (const std::uint32_t corner : triangle) {
+            used.push_back(mesh.points[corner]);
+        }
+    }
+    SAND_CHECK(!used.empty(), "a mesh without triangles has no outline");
+    for (int k = 0; k < directions; ++k) {
+        // Evenly over the sphere, by the golden angle.
+        const double z = (2.0 * k + 1.0) / directions - 1.0;
+        const double phi = k * kPi * (3.0 - std::sqrt(5.0));
+        const double out = std::sqrt(1.0 - z * z);
+        const Vec3 direction(out * std::cos(phi), out * std::sin(phi), z);
+        const auto before = [&](const Vec3& a, const Vec3& b) {
+            return a.dot(direction) < b.dot(direction);
+        };
+        points.push_back(*std::ranges::max_element(used, before));
+    }
+}
+
 /// Outline points of every visible solid of limited size; those much larger than the sand are
 /// ground rather than things and may leave the picture.
-std::vector<Vec3> outlineSolids(const Scene& scene, const Box3& sand)
+std::vector<Vec3> outlineSolids(const Scene& scene, const Box3& sand,
+                                std::span<const SceneMesh> meshes)
 {
     const double largest = 3.0 * sand.diagonal().norm();
     std::vector<Vec3> points;
@@ -71,6 +98,11 @@ std::vector<Vec3> outlineSolids(const Scene& scene, const Box3& sand)
         }
         if (!own.empty() && size.diagonal().norm() <= largest) {
             points.insert(points.end(), own.begin(), own.end());
+        }
+    }
+    for (const SceneMesh& mesh : meshes) {
+        if (isThing(scene, sand, mesh)) {
+            addOutermost(points, mesh.mesh);
         }
     }
     return points;
@@ -140,7 +172,7 @@ double findDistance(CameraFrame camera, const Vec3& direction, const std::vector
 
 }  // namespace
 
-CameraFrame frameCamera(const Scene& scene, const Box3& sand)
+CameraFrame frameCamera(const Scene& scene, const Box3& sand, std::span<const SceneMesh> meshes)
 {
     CameraFrame camera;
     camera.angle = scene.camera.angle;
@@ -150,7 +182,7 @@ CameraFrame frameCamera(const Scene& scene, const Box3& sand)
         return camera;
     }
     const std::vector<Vec3> sandPoints = outlineSand(sand);
-    const std::vector<Vec3> solidPoints = outlineSolids(scene, sand);
+    const std::vector<Vec3> solidPoints = outlineSolids(scene, sand, meshes);
     std::vector<Vec3> all = sandPoints;
     all.insert(all.end(), solidPoints.begin(), solidPoints.end());
     // Perspective enlarges what is near, so the centre of the box is not the centre of the picture:

@@ -12,7 +12,9 @@ struct CameraFrame {
 };
 
 /// Completes the scene's camera. What the scene leaves open is chosen so that the sand fills about
-/// two thirds of the picture's width, the solids of limited size fit in, and no horizon shows.
-CameraFrame frameCamera(const Scene& scene, const Box3& sand);
+/// two thirds of the picture's width, unless solids of limited size and meshes, which must fit in,
+/// need more room than that, and no horizon shows.
+CameraFrame frameCamera(const Scene& scene, const Box3& sand,
+                        std::span<const SceneMesh> meshes = {});
 
 }  // namespace sandflow

@@ -1,7 +1,11 @@
 #include "io/picture_extent.h"
 
+#include "core/errors.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace sandflow {
@@ -9,17 +13,79 @@ namespace {
 
 constexpr double kHeapSlope = 0.488;     ///< tan 26 degrees
 constexpr double kSolidFraction = 0.58;  ///< of the volume of poured sand is grains
+constexpr double kLeastRim = 0.2;        ///< of a bowl's height, above the place the sand falls on
+constexpr double kLargestThing = 10.0;   ///< diagonals of the sand; larger meshes are landscape
+
+/// What sand may fall on.
+struct Setting {
+    const Scene& scene;
+    std::span<const SceneMesh> meshes;
+};
 
 Box3 makeBox(const Vec3& min, const Vec3& max)
 {
     return Box3(min.cwiseMin(max), min.cwiseMax(max));
 }
 
+/// Height of the highest surface of a mesh at (x, y) below z; nothing if there is none.
+std::optional<double> findMeshTop(const TriangleMesh& mesh, const Vec3& p)
+{
+    std::optional<double> top;
+    for (const auto& triangle : mesh.triangles) {
+        const Vec3& a = mesh.points[triangle[0]];
+        const Vec3 u = mesh.points[triangle[1]] - a;
+        const Vec3 v = mesh.points[triangle[2]] - a;
+        const Vec3 offset = p - a;
+        const double det = u.x() * v.y() - u.y() * v.x();
+        const double s = offset.x() * v.y() - offset.y() * v.x();
+        const double t = u.x() * offset.y() - u.y() * offset.x();
+        // Barycentric coordinates s / det and t / det in the plan; upright triangles have no det.
+        if (det == 0.0 || s / det < 0.0 || t / det < 0.0 || (s + t) / det > 1.0) {
+            continue;
+        }
+        const double z = a.z() + s / det * u.z() + t / det * v.z();
+        if (z < p.z() && (!top || z > *top)) {
+            top = z;
+        }
+    }
+    return top;
+}
+
+/// Room for sand in the hollow of a mesh at p: its box above the surface there. Empty where it is
+/// not hollow, because somewhere around p its rim is missing or low.
+Box3 findHollow(const TriangleMesh& mesh, const Vec3& p)
+{
+    const Box3 bounds = boundsOf(mesh);
+    const std::optional<double> bottom = findMeshTop(mesh, p);
+    if (!bottom) {
+        return {};
+    }
+    // The highest point in each direction as seen from p in the plan.
+    constexpr int directions = 12;
+    std::array<double, directions> rim;
+    rim.fill(-1e30);
+    for (const auto& triangle : mesh.triangles) {
+        for (const std::uint32_t corner : triangle) {
+            const Vec3& point = mesh.points[corner];
+            const double turn = std::atan2(point.y() - p.y(), point.x() - p.x()) / (2.0 * kPi);
+            auto& height = rim[static_cast<std::size_t>(
+                std::clamp(static_cast<int>((turn + 0.5) * directions), 0, directions - 1))];
+            height = std::max(height, point.z());
+        }
+    }
+    if (*std::ranges::min_element(rim) < *bottom + kLeastRim * bounds.sizes().z()) {
+        return {};
+    }
+    Box3 room = bounds;
+    room.min().z() = *bottom;
+    return room;
+}
+
 /// Height of the ground that sand at p falls on: the highest flat surface below it, 0 if none.
-double findGround(const Scene& scene, const Vec3& p)
+double findGround(const Setting& setting, const Vec3& p)
 {
     double ground = -1e30;
-    for (const SolidSpec& solid : scene.solids) {
+    for (const SolidSpec& solid : setting.scene.solids) {
         double top = -1e30;
         if (solid.shape == SolidShape::plane && solid.normal.z() > 0.5) {
             // n . (x - point) = 0 solved for z.
@@ -32,6 +98,12 @@ double findGround(const Scene& scene, const Vec3& p)
         }
         if (top < p.z()) {
             ground = std::max(ground, top);
+        }
+    }
+    for (const SceneMesh& mesh : setting.meshes) {
+        const Box3 room = findHollow(mesh.mesh, p);
+        if (!room.isEmpty()) {
+            ground = std::max(ground, room.min().z());
         }
     }
     return ground > -1e29 ? ground : 0.0;
@@ -53,11 +125,11 @@ Box3 makeHeapBox(const Vec3& foot, double volume, double slope)
 }
 
 /// Where something thrown from `start` meets the ground, without air.
-Vec3 findLanding(const Scene& scene, const Vec3& start, const Vec3& velocity)
+Vec3 findLanding(const Setting& setting, const Vec3& start, const Vec3& velocity)
 {
-    const double ground = findGround(scene, start);
+    const double ground = findGround(setting, start);
     const double drop = start.z() - ground;
-    const double g = std::max(1e-6, -scene.gravity.z());
+    const double g = std::max(1e-6, -setting.scene.gravity.z());
     // 0 = drop + vz t - g t^2 / 2
     const double root = std::sqrt(std::max(0.0, velocity.z() * velocity.z() + 2.0 * g * drop));
     const double time = std::max(0.0, (velocity.z() + root) / g);
@@ -65,10 +137,10 @@ Vec3 findLanding(const Scene& scene, const Vec3& start, const Vec3& velocity)
 }
 
 /// The sand of a box that slumps: the heap it may become, and at least the ground it stood on.
-Box3 slump(const Scene& scene, const EmitterSpec& emitter, double volume)
+Box3 slump(const Setting& setting, const EmitterSpec& emitter, double volume)
 {
     const Vec3 centre = 0.5 * (emitter.min + emitter.max);
-    Box3 box = makeHeapBox(Vec3(centre.x(), centre.y(), findGround(scene, centre)), volume,
+    Box3 box = makeHeapBox(Vec3(centre.x(), centre.y(), findGround(setting, centre)), volume,
                            kHeapSlope);
     const Vec3 reach = 0.5 * (emitter.max - emitter.min);
     box.extend(makeBox(Vec3(centre.x() - reach.x(), centre.y() - reach.y(), box.min().z()),
@@ -76,34 +148,35 @@ Box3 slump(const Scene& scene, const EmitterSpec& emitter, double volume)
     return box;
 }
 
-Box3 estimateEmitterBox(const Scene& scene, const EmitterSpec& emitter)
+Box3 estimateEmitterBox(const Setting& setting, const EmitterSpec& emitter)
 {
-    const double volume = pourVolume(scene, emitter.count);
+    const double volume = pourVolume(setting.scene, emitter.count);
     switch (emitter.kind) {
         case EmitterKind::jet:
         case EmitterKind::slot: {
             const Vec3 velocity = emitter.speed * emitter.direction;
-            return makeHeapBox(findLanding(scene, emitter.position, velocity), volume, kHeapSlope);
+            return makeHeapBox(findLanding(setting, emitter.position, velocity), volume,
+                               kHeapSlope);
         }
-        case EmitterKind::block: return slump(scene, emitter, volume);
+        case EmitterKind::block: return slump(setting, emitter, volume);
         case EmitterKind::fill: return makeBox(emitter.min, emitter.max);
         case EmitterKind::pile:
             return makeHeapBox(emitter.position, volume,
                                std::max(0.05, std::tan(emitter.slopeAngle * kPi / 180.0)));
         case EmitterKind::single: break;
     }
-    const double r = emitter.grainRadius.value_or(scene.grains.radius);
+    const double r = emitter.grainRadius.value_or(setting.scene.grains.radius);
     Box3 box(emitter.position);
-    box.extend(findLanding(scene, emitter.position, emitter.velocity));
+    box.extend(findLanding(setting, emitter.position, emitter.velocity));
     return makeBox(box.min() - Vec3::Constant(3.0 * r), box.max() + Vec3::Constant(3.0 * r));
 }
 
 /// Cuts a box down to the container its centre lies in, if any.
-Box3 keepInside(const Scene& scene, const Box3& box)
+Box3 keepInside(const Setting& setting, const Box3& box)
 {
     Box3 kept = box;
     const Vec3 centre = box.center();
-    for (const SolidSpec& solid : scene.solids) {
+    for (const SolidSpec& solid : setting.scene.solids) {
         if (!solid.hollow || solid.until < 1e29) {
             continue;
         }
@@ -122,16 +195,27 @@ Box3 keepInside(const Scene& scene, const Box3& box)
             kept = kept.intersection(room);
         }
     }
+    for (const SceneMesh& mesh : setting.meshes) {
+        Box3 room = findHollow(mesh.mesh, Vec3(centre.x(), centre.y(), box.max().z()));
+        if (room.isEmpty()) {
+            continue;
+        }
+        room.max().z() = std::max(room.max().z(), box.max().z());
+        if (room.contains(centre)) {
+            kept = kept.intersection(room);
+        }
+    }
     return kept;
 }
 
 }  // namespace
 
-Box3 estimateSandBox(const Scene& scene)
+Box3 estimateSandBox(const Scene& scene, std::span<const SceneMesh> meshes)
 {
+    const Setting setting{scene, meshes};
     Box3 box;
     for (const EmitterSpec& emitter : scene.emitters) {
-        box.extend(keepInside(scene, estimateEmitterBox(scene, emitter)));
+        box.extend(keepInside(setting, estimateEmitterBox(setting, emitter)));
     }
     if (box.isEmpty()) {
         const double size = 20.0 * scene.grains.radius;
@@ -164,6 +248,26 @@ Box3 measureSandBox(const Snapshot& snapshot)
     }
     const Vec3 radius = Vec3::Constant(snapshot.meanRadius);
     return makeBox(min - radius, max + radius);
+}
+
+bool isThing(const Scene& scene, const Box3& sand, const SceneMesh& mesh)
+{
+    SAND_CHECK(mesh.solid < scene.solids.size(), "a mesh of solid {} of {}", mesh.solid,
+               scene.solids.size());
+    const Box3 bounds = boundsOf(mesh.mesh);
+    return !bounds.isEmpty() && scene.solids[mesh.solid].look != "none" &&
+           bounds.diagonal().norm() <= kLargestThing * sand.diagonal().norm();
+}
+
+Box3 measurePictureBox(const Scene& scene, const Box3& sand, std::span<const SceneMesh> meshes)
+{
+    Box3 box = sand;
+    for (const SceneMesh& mesh : meshes) {
+        if (isThing(scene, sand, mesh)) {
+            box.extend(boundsOf(mesh.mesh));
+        }
+    }
+    return box;
 }
 
 }  // namespace sandflow

@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "io/atomic_file.h"
+#include "io/pov_decimal.h"
 #include "io/snapshot_check.h"
 
 #include <charconv>
@@ -13,47 +14,17 @@ namespace {
 
 /// Lengths are written in thousandths of the mean radius: at video size a coarser grid would
 /// shimmer when grains creep, a finer one could not be seen.
-constexpr double kThousandths = 1000.0;
-/// Far beyond any scene, and small enough that the thousandths fit 64 bits.
-constexpr double kFarthest = 1e12;
-/// "sphere{<,,>,}\n" and four numbers of at most 17 characters.
-constexpr std::size_t kLongestSphere = 14 + 4 * 17;
+constexpr int kDecimals = 3;
+/// "sphere{<,,>,}\n" and its four numbers.
+constexpr std::size_t kLongestSphere = 14 + 4 * kLongestDecimal;
 
-/// Writes value with at most three decimals, without trailing zeros and never as "-0"; returns the
-/// end. A scaled integer, because that is several times faster than printing a double.
-char* putDecimal(char* out, double value, std::uint32_t id)
+char* putLength(char* out, double value, std::uint32_t id)
 {
-    // The negation also catches NaN.
-    if (!(std::abs(value) < kFarthest)) {
+    if (!isDrawable(value)) {
         throw InternalError(fmt::format(
             "grain {} cannot be drawn: a coordinate or its radius is {} mean radii", id, value));
     }
-    std::int64_t scaled = std::llround(value * kThousandths);
-    if (scaled < 0) {
-        *out++ = '-';
-        scaled = -scaled;
-    }
-    const std::int64_t whole = scaled / 1000;
-    const auto fraction = static_cast<int>(scaled % 1000);
-    if (whole > 0 || fraction == 0) {
-        out = std::to_chars(out, out + 16, whole).ptr;
-    }
-    if (fraction > 0) {
-        *out++ = '.';
-        *out++ = static_cast<char>('0' + fraction / 100);
-        if (fraction % 100 > 0) {
-            *out++ = static_cast<char>('0' + fraction / 10 % 10);
-            if (fraction % 10 > 0) {
-                *out++ = static_cast<char>('0' + fraction % 10);
-            }
-        }
-    }
-    return out;
-}
-
-char* putLiteral(char* out, std::string_view text)
-{
-    return out + text.copy(out, text.size());
+    return putDecimal<kDecimals>(out, value);
 }
 
 }  // namespace
@@ -109,13 +80,13 @@ std::string formatPovFrame(const Snapshot& snapshot, const PovFrameOptions& opti
             const Vec3& position = snapshot.position[i];
             const std::uint32_t id = snapshot.id[i];
             out = putLiteral(out, "sphere{<");
-            out = putDecimal(out, position.x() * scale, id);
+            out = putLength(out, position.x() * scale, id);
             *out++ = ',';
-            out = putDecimal(out, position.z() * scale, id);
+            out = putLength(out, position.z() * scale, id);
             *out++ = ',';
-            out = putDecimal(out, position.y() * scale, id);
+            out = putLength(out, position.y() * scale, id);
             out = putLiteral(out, ">,");
-            out = putDecimal(out, static_cast<double>(snapshot.radius[i]) * scale, id);
+            out = putLength(out, static_cast<double>(snapshot.radius[i]) * scale, id);
             out = putLiteral(out, "}\n");
         }
         out = putLiteral(out, byFamily ? "GrainTexture(" : "StateTexture(");

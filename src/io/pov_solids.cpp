@@ -3,7 +3,9 @@
 #include "core/errors.h"
 #include "io/number_text.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 
 namespace sandflow {
@@ -12,24 +14,24 @@ namespace {
 /// Thickness drawn for walls and plates, which have none in the simulation, in mean grain radii.
 constexpr double kPaneThickness = 0.5;
 
-/// Name of the material macro for a look.
+struct LookMaterial {
+    std::string_view look;
+    std::string_view material;  ///< macro of materials.inc
+};
+constexpr LookMaterial kMaterials[] = {{"floor", "FloorLook()"},     {"glass", "GlassLook()"},
+                                       {"ceramic", "CeramicLook()"}, {"wood", "WoodLook()"},
+                                       {"stone", "StoneLook()"},     {"jade", "JadeLook()"},
+                                       {"bronze", "BronzeLook()"}};
+
 std::string_view chooseMaterial(const SolidSpec& solid)
 {
-    if (solid.look == "floor") {
-        return "FloorLook()";
+    const auto found = std::ranges::find(kMaterials, solid.look, &LookMaterial::look);
+    if (found != std::end(kMaterials)) {
+        return found->material;
     }
-    if (solid.look == "glass") {
-        return "GlassLook()";
-    }
-    if (solid.look == "ceramic") {
-        return "CeramicLook()";
-    }
-    if (solid.look == "wood") {
-        return "WoodLook()";
-    }
-    throw InputError(fmt::format(
-        "solid \"{}\": unknown look \"{}\": use floor, glass, ceramic, wood or none", solid.name,
-        solid.look));
+    throw InputError(fmt::format("solid \"{}\": unknown look \"{}\": use floor, glass, ceramic, "
+                                 "wood, stone, jade, bronze or none",
+                                 solid.name, solid.look));
 }
 
 /// Comments of POV-Ray end at the line's end; a name must not.
@@ -89,8 +91,11 @@ std::string formatCylinder(const SolidSpec& solid, double unit)
 }
 
 /// The shape up to, but without, material and closing brace; "" for one that is not drawn.
-std::string formatShape(const SolidSpec& solid, double unit, const Vec3& camera)
+std::string formatShape(const Scene& scene, std::size_t index, const Vec3& camera,
+                        std::span<const SceneMesh> meshes)
 {
+    const SolidSpec& solid = scene.solids[index];
+    const double unit = scene.grains.radius;
     switch (solid.shape) {
         case SolidShape::plane: {
             const Vec3 normal = solid.normal.normalized();
@@ -109,18 +114,26 @@ std::string formatShape(const SolidSpec& solid, double unit, const Vec3& camera)
             return fmt::format("cylinder{{{},{},{}", povVector(centre - half),
                                povVector(centre + half), povNumber(solid.radius / unit));
         }
-        case SolidShape::mesh: break;
+        case SolidShape::mesh:
+            if (findMesh(meshes, index) == nullptr) {
+                throw InputError(fmt::format(
+                    "solid \"{}\": its mesh cannot be drawn: its triangles were not loaded",
+                    solid.name));
+            }
+            return fmt::format("object{{{}", povMeshName(index));
     }
-    throw InputError(fmt::format("solid \"{}\": meshes cannot be drawn yet", solid.name));
+    throw InternalError(fmt::format("solid \"{}\" has no shape", solid.name));
 }
 
-std::string formatSolid(const SolidSpec& solid, double unit, const Vec3& camera)
+std::string formatSolid(const Scene& scene, std::size_t index, const Vec3& camera,
+                        std::span<const SceneMesh> meshes)
 {
+    const SolidSpec& solid = scene.solids[index];
     if (solid.look == "none") {
         return "";
     }
     const std::string_view material = chooseMaterial(solid);
-    const std::string shape = formatShape(solid, unit, camera);
+    const std::string shape = formatShape(scene, index, camera, meshes);
     if (shape.empty()) {
         return makeComment(solid.name + ": not drawn, its back is to the camera");
     }
@@ -155,11 +168,17 @@ std::string povVector(const Vec3& vector)
                        povNumber(vector.y()));
 }
 
-std::string formatPovSolids(const Scene& scene, const Vec3& camera)
+std::string povMeshName(std::size_t solid)
+{
+    return fmt::format("Solid{}", solid);
+}
+
+std::string formatPovSolids(const Scene& scene, const Vec3& camera,
+                            std::span<const SceneMesh> meshes)
 {
     std::string text = "#macro RunSolids()\n";
-    for (const SolidSpec& solid : scene.solids) {
-        text += formatSolid(solid, scene.grains.radius, camera);
+    for (std::size_t index = 0; index < scene.solids.size(); ++index) {
+        text += formatSolid(scene, index, camera, meshes);
     }
     return text + "#end\n";
 }

@@ -11,11 +11,9 @@ constexpr double kPlateThickness = 1e-6;
 
 }  // namespace
 
-void freeIntervals(const std::vector<Primitive>& primitives, double time, double x, double y,
-                   double minGap, std::vector<std::pair<double, double>>& out)
+void appendSolidStretches(const std::vector<Primitive>& primitives, double time, double x, double y,
+                          std::vector<std::pair<double, double>>& out)
 {
-    // Solid stretches first, in `out` itself: columns are made in bulk and need no other memory.
-    out.clear();
     for (const Primitive& primitive : primitives) {
         if (!primitive.existsAt(time)) {
             continue;
@@ -25,23 +23,35 @@ void freeIntervals(const std::vector<Primitive>& primitives, double time, double
             out.emplace_back(solid.lo, solid.hi);
         }
     }
-    std::sort(out.begin(), out.end());
+}
 
+void keepGaps(double minGap, std::vector<std::pair<double, double>>& stretches)
+{
+    std::sort(stretches.begin(), stretches.end());
     // Each gap between the top of all below and the next stretch is free. There is at most one gap
     // per stretch read, so writing never overtakes reading.
     double top = kNoFloor;
     std::size_t written = 0;
-    for (std::size_t read = 0; read < out.size(); ++read) {
-        const auto [lo, hi] = out[read];
+    for (std::size_t read = 0; read < stretches.size(); ++read) {
+        const auto [lo, hi] = stretches[read];
         if (lo - top > minGap) {
-            out[written++] = {top, lo};
+            stretches[written++] = {top, lo};
         }
         top = std::max(top, hi);
     }
-    out.resize(written);
+    stretches.resize(written);
     if (top < kOpenAbove) {
-        out.emplace_back(top, kOpenAbove);
+        stretches.emplace_back(top, kOpenAbove);
     }
+}
+
+void freeIntervals(const std::vector<Primitive>& primitives, double time, double x, double y,
+                   double minGap, std::vector<std::pair<double, double>>& out)
+{
+    // Solid stretches first, in `out` itself: columns are made in bulk and need no other memory.
+    out.clear();
+    appendSolidStretches(primitives, time, x, y, out);
+    keepGaps(minGap, out);
 }
 
 }  // namespace sandflow

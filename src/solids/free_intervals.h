@@ -21,4 +21,12 @@ inline constexpr double kOpenAbove = 1e30;
 void freeIntervals(const std::vector<Primitive>& primitives, double time, double x, double y,
                    double minGap, std::vector<std::pair<double, double>>& out);
 
+/// The stretches of the line inside the primitives that exist at `time`, {bottom, top}, in no order.
+void appendSolidStretches(const std::vector<Primitive>& primitives, double time, double x, double y,
+                          std::vector<std::pair<double, double>>& out);
+
+/// Solid stretches, in any order, are replaced by the free ones between them that are higher than
+/// minGap, as freeIntervals() has them.
+void keepGaps(double minGap, std::vector<std::pair<double, double>>& stretches);
+
 }  // namespace sandflow

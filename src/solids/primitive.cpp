@@ -8,13 +8,6 @@ namespace sandflow {
 
 namespace {
 
-/// How messages call a solid: solids[2] ("table").
-std::string nameSolid(const SolidSpec& solid, int index)
-{
-    return solid.name.empty() ? fmt::format("solids[{}]", index)
-                              : fmt::format("solids[{}] (\"{}\")", index, solid.name);
-}
-
 void requirePositive(double value, const char* key, const std::string& name)
 {
     if (!(value > 0.0) || !std::isfinite(value)) {
@@ -139,6 +132,12 @@ std::vector<Primitive> buildCylinder(const SolidSpec& solid, int solidIndex,
 
 }  // namespace
 
+std::string nameSolid(const SolidSpec& solid, int index)
+{
+    return solid.name.empty() ? fmt::format("solids[{}]", index)
+                              : fmt::format("solids[{}] (\"{}\")", index, solid.name);
+}
+
 std::vector<Primitive> buildPrimitives(const SolidSpec& solid, int solidIndex)
 {
     const std::string name = nameSolid(solid, solidIndex);
@@ -159,9 +158,7 @@ std::vector<Primitive> buildPrimitives(const SolidSpec& solid, int solidIndex)
         case SolidShape::disc:
             return buildDisc(solid, solidIndex, name);
         case SolidShape::mesh:
-            throw InputError(fmt::format(
-                "{}: meshes are not supported by this version; use plane, box, cylinder or disc.",
-                name));
+            throw InternalError(fmt::format("{}: a mesh has no primitives", name));
     }
     throw InternalError(fmt::format("{}: unknown shape {}", name, static_cast<int>(solid.shape)));
 }

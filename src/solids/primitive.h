@@ -40,7 +40,10 @@ struct Primitive {
     bool existsAt(double time) const { return time >= from && time < until; }
 };
 
-/// Splits a solid into primitives. Throws InputError for what cannot be built (mesh: not yet; empty
+/// How messages call a solid: solids[2] ("table").
+std::string nameSolid(const SolidSpec& solid, int index);
+
+/// Splits a solid into primitives. Throws InputError for what cannot be built (empty
 /// boxes, radii that are not positive, null directions, roughness on anything but a plane).
 std::vector<Primitive> buildPrimitives(const SolidSpec& solid, int solidIndex);
 

@@ -5,8 +5,8 @@
 namespace sandflow {
 
 template <class Real>
-void OverlapGuard<Real>::admit(const Dem<Real>& dem, double time, std::size_t retries,
-                               std::vector<NewGrain>& waiting, std::vector<NewGrain>& accepted)
+void OverlapGuard<Real>::admit(const Dem<Real>& dem, const SolidSet& solids, double time,
+                               std::size_t retries, std::vector<NewGrain>& waiting, std::vector<NewGrain>& accepted)
 {
     if (waiting.empty()) {
         return;
@@ -41,7 +41,7 @@ void OverlapGuard<Real>::admit(const Dem<Real>& dem, double time, std::size_t re
 
     const auto hasRoom = [&](const NewGrain& g) {
         const double allowed = kLimit * g.radius;
-        for (const Primitive& wall : dem.setup().primitives) {
+        for (const Primitive& wall : solids.primitives()) {
             // Between the bumps of a rough plane grains rest a little deeper than on it.
             const double sinks = allowed + (wall.rough ? 0.25 * g.radius : 0.0);
             if (wall.existsAt(time) &&
@@ -49,7 +49,10 @@ void OverlapGuard<Real>::admit(const Dem<Real>& dem, double time, std::size_t re
                 return false;
             }
         }
-        bool free = true;
+        bool free = std::none_of(
+            solids.meshes().begin(), solids.meshes().end(), [&](const MeshSolid& mesh) {
+                return mesh.existsAt(time) && mesh.columns.contains(g.position);
+            });
         cells.visitNear(cells.cellOf(g.position), 1, [&](const SortedCells::Cell& cell) {
             for (std::uint32_t e = cell.begin; e < cell.end; ++e) {
                 const std::uint32_t other = cells.order()[e];

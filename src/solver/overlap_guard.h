@@ -2,6 +2,7 @@
 
 #include "dem/dem.h"
 #include "emit/emitter.h"
+#include "solids/solid_set.h"
 
 #include <vector>
 
@@ -19,7 +20,7 @@ public:
     /// The first `retries` of them were turned away before: they may also be in each other's place
     /// and in that of the new ones, which come from one emitter at a time and are clear of each
     /// other.
-    void admit(const Dem<Real>& dem, double time, std::size_t retries,
+    void admit(const Dem<Real>& dem, const SolidSet& solids, double time, std::size_t retries,
                std::vector<NewGrain>& waiting, std::vector<NewGrain>& accepted);
 
 private:

@@ -19,7 +19,7 @@ double deepestColumn(const Scene& scene, std::uint64_t grains)
 
 }  // namespace
 
-RunPlan planRun(const Scene& scene)
+RunPlan planRun(const Scene& scene, std::span<const Eigen::AlignedBox3d> meshBounds)
 {
     RunPlan plan;
     double smallest = scene.grains.radius * (1.0 - scene.grains.sizeSpread);
@@ -31,7 +31,7 @@ RunPlan planRun(const Scene& scene)
             largest = std::max(largest, *scene.emitters[e].grainRadius);
         }
     }
-    plan.load.fastestSpeed = fastestPossibleSpeed(scene);
+    plan.load.fastestSpeed = fastestPossibleSpeed(scene, meshBounds);
     plan.load.deepestColumn = deepestColumn(scene, plan.grains);
     plan.load.minRadius = smallest;
     plan.load.maxRadius = largest;

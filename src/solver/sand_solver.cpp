@@ -2,7 +2,6 @@
 
 #include "core/hash.h"
 #include "core/stage_clock.h"
-#include "solids/free_intervals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,20 +13,8 @@ namespace {
 /// Grains faster than this are in the air or about to be, not part of the heap (H leaves them out).
 constexpr double kAccumulatedSpeed = 0.6;  // m/s
 constexpr float kAccumulatedContacts = 2;
-/// Gaps between solids lower than this many diameters hold no sand.
-constexpr double kSmallestGap = 1.0;
 
-std::vector<Primitive> allPrimitives(const Scene& scene)
-{
-    std::vector<Primitive> out;
-    for (std::size_t s = 0; s < scene.solids.size(); ++s) {
-        const auto parts = buildPrimitives(scene.solids[s], static_cast<int>(s));
-        out.insert(out.end(), parts.begin(), parts.end());
-    }
-    return out;
-}
-
-DemSetup demSetup(const Scene& scene, const RunPlan& plan)
+DemSetup demSetup(const Scene& scene, const SolidSet& solids, const RunPlan& plan)
 {
     DemSetup setup;
     setup.law = plan.law;
@@ -35,7 +22,11 @@ DemSetup demSetup(const Scene& scene, const RunPlan& plan)
     setup.largestRadius = plan.load.maxRadius;
     setup.density = scene.grains.density;
     setup.gravity = scene.gravity;
-    setup.primitives = allPrimitives(scene);
+    setup.primitives = solids.primitives();
+    for (const MeshSolid& mesh : solids.meshes()) {
+        setup.meshCovers.push_back({mesh.from, mesh.until, mesh.cover.points,
+                                    kMeshCoverRadius * scene.grains.radius});
+    }
     setup.seed = scene.seed;
     setup.judged = scene.mode == Mode::surfaceFlow;
     return setup;
@@ -77,25 +68,22 @@ Vec3 positionOf(const GrainRecord<Real>& g)
 template <class Real>
 SandSolver<Real>::SandSolver(const Scene& scene)
     : scene_(scene),
-      plan_(planRun(scene)),
-      dem_(demSetup(scene, plan_)),
+      solids_(scene),
+      plan_(planRun(scene, solids_.meshBounds())),
+      dem_(demSetup(scene, solids_, plan_)),
       buried_(scene.surfaceFlow.cellSize * scene.diameter()),
       columns_(
           scene.surfaceFlow.cellSize * scene.diameter(),
           [this](double x, double y, std::vector<ColumnGrid::FreeInterval>& out) {
-              std::vector<std::pair<double, double>> free;
-              freeIntervals(dem_.setup().primitives, time_, x, y,
-                            kSmallestGap * scene_.diameter(), free);
+              std::vector<FreeStretch> free;
+              solids_.freeStretches(time_, x, y, columns_.cellSize(), free);
               out.clear();
-              for (const auto& [floor, ceiling] : free) {
-                  out.push_back({floor, ceiling});
+              for (const FreeStretch& f : free) {
+                  out.push_back({f.floor, f.ceiling, f.ragged});
               }
           },
           [this](const Vec2& a, const Vec2& b, double lo, double hi) {
-              return std::any_of(dem_.setup().primitives.begin(), dem_.setup().primitives.end(),
-                                 [&](const Primitive& p) {
-                                     return p.existsAt(time_) && blocksPath(p, a, b, lo, hi);
-                                 });
+              return solids_.partsColumns(time_, a, b, lo, hi);
           }),
       bcre_(bcreParams(scene)),
       rest_(makeRestRules(scene.surfaceFlow)),
@@ -301,7 +289,7 @@ void SandSolver<Real>::admitNewGrains()
 {
     const auto admit = [&](std::size_t retries) {
         admitted_.clear();
-        guard_.admit(dem_, time_, retries, waiting_, admitted_);
+        guard_.admit(dem_, solids_, time_, retries, waiting_, admitted_);
         for (const NewGrain& g : admitted_) {
             SAND_CHECK(nextId_ < kFirstBoundaryId, "out of grain ids");
             if (g.settled && scene_.mode == Mode::surfaceFlow) {
@@ -340,10 +328,7 @@ void SandSolver<Real>::dropExited()
 template <class Real>
 void SandSolver<Real>::solidsCameOrWent()
 {
-    const auto& solids = dem_.setup().primitives;
-    const bool changed = std::any_of(solids.begin(), solids.end(), [&](const Primitive& p) {
-        return p.existsAt(time_) != p.existsAt(solidsKnownAt_);
-    });
+    const bool changed = solids_.changesBetween(solidsKnownAt_, time_);
     solidsKnownAt_ = time_;
     if (!changed) {
         return;
@@ -430,15 +415,11 @@ void SandSolver<Real>::takeSnapshot(Snapshot& out) const
 template <class Real>
 std::uint64_t SandSolver<Real>::countLeaks() const
 {
-    Snapshot all;
-    takeSnapshot(all);
+    const auto count = static_cast<std::int64_t>(dem_.mobile().size());
     std::uint64_t leaks = 0;
-    for (const Vec3& p : all.position) {
-        leaks += std::any_of(dem_.setup().primitives.begin(), dem_.setup().primitives.end(),
-                             [&](const Primitive& solid) {
-                                 return solid.existsAt(time_) &&
-                                        nearestSurface(solid, p).distance < 0.0;
-                             });
+#pragma omp parallel for schedule(static) reduction(+ : leaks)
+    for (std::int64_t k = 0; k < count; ++k) {
+        leaks += solids_.contains(time_, positionOf(dem_.mobile().record[k])) ? 1 : 0;
     }
     return leaks;
 }

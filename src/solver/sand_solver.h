@@ -23,6 +23,7 @@ public:
     FrameReport advanceFrame() override;
     bool finished() const override { return frame_ >= plan_.frames; }
     const RunPlan& plan() const override { return plan_; }
+    const SolidSet& solids() const override { return solids_; }
     Ledger ledger() const override;
     void takeSnapshot(Snapshot& out) const override;
     std::uint64_t stateHash() const override;
@@ -44,6 +45,7 @@ private:
     double nextEmission() const;
 
     Scene scene_;
+    SolidSet solids_;
     RunPlan plan_;
     Dem<Real> dem_;
     BuriedGrains buried_;

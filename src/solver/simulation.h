@@ -3,6 +3,7 @@
 #include "dem/contact_coefficients.h"
 #include "grains/snapshot.h"
 #include "scene/scene.h"
+#include "solids/solid_set.h"
 #include "transfer/matter_transfer.h"
 
 #include <memory>
@@ -54,8 +55,8 @@ struct RunPlan {
     double framePeriod = 0.0;     ///< s
 };
 
-/// Reads the scene's numbers; throws InputError for what cannot work.
-RunPlan planRun(const Scene& scene);
+/// Reads the scene's numbers; throws InputError for what cannot work. Meshes count by their boxes.
+RunPlan planRun(const Scene& scene, std::span<const Eigen::AlignedBox3d> meshBounds = {});
 
 /// A run: all state of the sand. Deterministic: the same scene and seed give the same bits on any
 /// number of threads.
@@ -67,6 +68,7 @@ public:
     virtual FrameReport advanceFrame() = 0;
     virtual bool finished() const = 0;
     virtual const RunPlan& plan() const = 0;
+    virtual const SolidSet& solids() const = 0;
     virtual Ledger ledger() const = 0;
 
     /// Every grain in the domain, ascending by id.
@@ -75,7 +77,8 @@ public:
     /// Fingerprint of the grains' whole state.
     virtual std::uint64_t stateHash() const = 0;
 
-    /// Grain centres below a plane or inside a filled solid: must be 0.
+    /// Grain centres below a plane or inside a filled solid or a mesh: must be 0. Grains that do
+    /// not move cannot leak: of the mobile ones only.
     virtual std::uint64_t countLeaks() const = 0;
 
     virtual std::size_t bytesMobile() const = 0;

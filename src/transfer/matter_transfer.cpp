@@ -60,7 +60,8 @@ auto MatterTransfer<Real>::judgeMobile(const ColumnGrid& columns, const Dem<Real
     }
     const GrainRecord<Real>& g = dem.mobile().record[k];
     const std::int32_t span = columns.spanAt(g.x, g.y, g.z);
-    if (span != ColumnGrid::kNone && g.z < bedHeightAt(columns, span, g.x, g.y)) {
+    if (span != ColumnGrid::kNone && !columns.ragged[span] &&
+        g.z < bedHeightAt(columns, span, g.x, g.y)) {
         return Fate::trapped;
     }
     return params_.sleep ? Fate::sleeps : Fate::stays;
@@ -76,8 +77,10 @@ auto MatterTransfer<Real>::judgeFrozen(const ColumnGrid& columns, const Dem<Real
         return Fate::dislodged;
     }
     const std::int32_t span = columns.spanAt(g.x, g.y, g.z);
-    const double bed =
-        span == ColumnGrid::kNone ? -1e30 : bedHeightAt(columns, span, g.x, g.y);
+    // Where a column is ragged its h says nothing about this grain: it may sleep, no more.
+    const double bed = span == ColumnGrid::kNone || columns.ragged[span]
+                           ? -1e30
+                           : bedHeightAt(columns, span, g.x, g.y);
     if (info.state == GrainState::asleep) {
         return g.z < bed ? Fate::sinks : Fate::stays;
     }

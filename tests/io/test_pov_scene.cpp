@@ -2,7 +2,9 @@
 #include "io/camera_frame.h"
 #include "io/pov_scene.h"
 #include "io/pov_solids.h"
+#include "mesh/shapes.h"
 #include "sample_snapshot.h"
+#include "scene/scene_choices.h"
 #include "temp_folder.h"
 
 #include <cmath>
@@ -138,7 +140,37 @@ TEST(PovSolids, hidesAndRefusesLooks)
     EXPECT_EQ(drawSolid(box), "");
     box.look = "gold";
     EXPECT_EQ(messageOf<InputError>([&] { drawSolid(box); }),
-              "solid \"tank\": unknown look \"gold\": use floor, glass, ceramic, wood or none");
+              "solid \"tank\": unknown look \"gold\": use floor, glass, ceramic, wood, stone, "
+              "jade, bronze or none");
+}
+
+TEST(PovSolids, hasAMaterialForEveryLookOfAScene)
+{
+    for (const auto& look : words::kLooks) {
+        SolidSpec box = makeBox(Vec3::Zero(), Vec3::Ones(), false, false);
+        box.look = look.value;
+        EXPECT_NO_THROW(drawSolid(box)) << look.name;
+    }
+}
+
+TEST(PovSolids, callsAMeshByItsNameAndRefusesOneItDoesNotHave)
+{
+    Scene scene;
+    scene.solids.resize(2);
+    scene.solids[1].shape = SolidShape::mesh;
+    scene.solids[1].name = "figure";
+    scene.solids[1].look = "jade";
+    scene.solids[1].from = 0.5;
+    const std::vector<SceneMesh> meshes{{1, makeBoxMesh(Vec3::Zero(), Vec3::Ones())}};
+    EXPECT_NE(formatPovSolids(scene, Vec3(0.0, -5.0, 3.0), meshes)
+                  .find("  // figure\n  #if (RunTime >= 0.5)\n"
+                        "  object{Solid1 JadeLook()}\n  #end\n"),
+              std::string::npos);
+    EXPECT_EQ(
+        messageOf<InputError>([&] { formatPovSolids(scene, Vec3(0.0, -5.0, 3.0)); }),
+        "solid \"figure\": its mesh cannot be drawn: its triangles were not loaded");
+    scene.solids[1].look = "none";
+    EXPECT_NO_THROW(formatPovSolids(scene, Vec3(0.0, -5.0, 3.0)));
 }
 
 TEST(PovSolids, keepsANameWithinItsComment)
@@ -218,6 +250,112 @@ TEST(CameraFrame, obeysTheScene)
     EXPECT_EQ(camera.angle, 50.0);
 }
 
+/// A bowl of revolution: a thin shell, 24 points around, standing at z = 0.
+TriangleMesh makeBowlMesh(double radius, double height)
+{
+    TriangleMesh mesh;
+    const std::vector<Vec2> profile{{0.3, 0.0}, {0.8, 0.5}, {1.0, 1.0}, {0.95, 1.0},
+                                    {0.7, 0.5}, {0.0, 0.1}};
+    constexpr std::uint32_t around = 24;
+    const auto rows = static_cast<std::uint32_t>(profile.size());
+    for (const Vec2& p : profile) {
+        for (std::uint32_t k = 0; k < around; ++k) {
+            const double phi = 2.0 * kPi * k / around;
+            mesh.points.push_back(Vec3(radius * p.x() * std::cos(phi),
+                                       radius * p.x() * std::sin(phi), height * p.y()));
+        }
+    }
+    for (std::uint32_t row = 0; row + 1 < rows; ++row) {
+        for (std::uint32_t k = 0; k < around; ++k) {
+            const std::uint32_t a = row * around + k;
+            const std::uint32_t b = row * around + (k + 1) % around;
+            mesh.triangles.push_back({a, b, b + around});
+            mesh.triangles.push_back({a, b + around, a + around});
+        }
+    }
+    return mesh;
+}
+
+/// A scene with one mesh solid, for which it is the mesh.
+Scene makeMeshScene(const std::string& look = "stone")
+{
+    Scene scene;
+    scene.solids.resize(1);
+    scene.solids[0].shape = SolidShape::mesh;
+    scene.solids[0].look = look;
+    return scene;
+}
+
+void expectInPicture(const CameraFrame& camera, const TriangleMesh& mesh)
+{
+    double highest = -1.0;
+    double widest = 0.0;
+    for (const Vec3& point : mesh.points) {
+        const Vec2 p = projectPoint(camera, point);
+        EXPECT_LT(std::abs(p.x()), 0.96);
+        EXPECT_LT(std::abs(p.y()), 0.96 * 9.0 / 16.0);
+        highest = std::max(highest, p.y());
+        widest = std::max(widest, std::abs(p.x()));
+    }
+    // ... but it is not lost in it either.
+    EXPECT_TRUE(highest > 0.35 || widest > 0.5) << highest << " " << widest;
+}
+
+TEST(CameraFrame, showsAFigureTallerThanTheSandWhole)
+{
+    for (const double height : {0.4, 1.0, 4.0}) {
+        const std::vector<SceneMesh> meshes{
+            {0, makeBoxMesh(Vec3(-0.2, -0.1, 0.0), Vec3(0.2, 0.1, height))}};
+        const Box3 sand(Vec3(-0.5, -0.5, 0.0), Vec3(0.5, 0.5, 0.2));
+        expectInPicture(frameCamera(makeMeshScene(), sand, meshes), meshes[0].mesh);
+    }
+}
+
+TEST(CameraFrame, showsABowlAndTheSandInIt)
+{
+    const std::vector<SceneMesh> meshes{{0, makeBowlMesh(0.2, 0.12)}};
+    for (const double filled : {0.03, 0.19}) {
+        const Box3 sand(Vec3(-filled, -filled, 0.015), Vec3(filled, filled, 0.1));
+        expectInPicture(frameCamera(makeMeshScene(), sand, meshes), meshes[0].mesh);
+    }
+}
+
+TEST(CameraFrame, leavesOutLandscapesAndWhatIsNotDrawn)
+{
+    const Box3 sand(Vec3(-0.5, -0.5, 0.0), Vec3(0.5, 0.5, 0.2));
+    const CameraFrame bare = frameCamera(Scene(), sand);
+    const std::vector<SceneMesh> hills{
+        {0, makeBoxMesh(Vec3(-20.0, -20.0, -1.0), Vec3(20.0, 20.0, 0.0))}};
+    EXPECT_EQ(frameCamera(makeMeshScene(), sand, hills).position, bare.position);
+    const std::vector<SceneMesh> hidden{{0, makeBoxMesh(Vec3::Zero(), Vec3::Ones())}};
+    EXPECT_EQ(frameCamera(makeMeshScene("none"), sand, hidden).position, bare.position);
+    EXPECT_NE(frameCamera(makeMeshScene(), sand, hidden).position, bare.position);
+    EXPECT_EQ(measurePictureBox(makeMeshScene(), sand, hills).max(), sand.max());
+    EXPECT_EQ(measurePictureBox(makeMeshScene(), sand, hidden).max(), Vec3::Ones());
+}
+
+TEST(SandBox, isEstimatedInsideABowlAndAroundAFigure)
+{
+    Scene scene = makeMeshScene();
+    EmitterSpec jet;
+    jet.position = Vec3(0.02, 0.0, 0.5);
+    jet.count = 3000;
+    scene.emitters = {jet};
+    const std::vector<SceneMesh> bowl{{0, makeBowlMesh(0.1, 0.08)}};
+    const Box3 inBowl = estimateSandBox(scene, bowl);
+    EXPECT_GT(inBowl.min().z(), 0.008);  // its inner floor, a tenth of its height
+    EXPECT_LT(inBowl.min().z(), 0.03);
+    EXPECT_GE(inBowl.min().x(), -0.1);
+    EXPECT_LE(inBowl.max().x(), 0.1);
+    // The same sand without the bowl needs more room; a figure does not hold it.
+    const Box3 onGround = estimateSandBox(scene);
+    EXPECT_LT(onGround.min().x(), -0.1);
+    const std::vector<SceneMesh> figure{
+        {0, makeBoxMesh(Vec3(-0.05, -0.05, 0.0), Vec3(0.05, 0.05, 0.2))}};
+    EXPECT_EQ(estimateSandBox(scene, figure).min(), onGround.min());
+    EXPECT_EQ(estimateSandBox(scene, figure).max(), onGround.max());
+}
+
 TEST(SandBox, isEstimatedAsAHeapWhereAJetLands)
 {
     Scene scene;
@@ -283,6 +421,42 @@ TEST(PovScene, copiesTheHandWrittenFiles)
     EXPECT_THROW(writePovScene(folder.path(), folder.file("none"), Scene(), {}), SystemError);
 }
 
+TEST(PovScene, writesEachMeshIntoAFileOfItsOwnOnce)
+{
+    TempFolder folder;
+    Scene scene = makeMeshScene();
+    scene.solids.push_back(scene.solids[0]);
+    scene.solids[0].look = "none";
+    const std::vector<SceneMesh> meshes{{1, makeBoxMesh(Vec3::Zero(), Vec3::Ones())},
+                                        {0, makeBoxMesh(Vec3::Zero(), Vec3::Ones())}};
+    writePovScene(folder.path(), kPovrayFolder, scene, {}, meshes);
+    EXPECT_FALSE(std::filesystem::exists(folder.file("solid_0.inc")));
+    const std::string text = slurp(folder.file("solid_1.inc"));
+    EXPECT_NE(text.find("#declare Solid1 = mesh2{"), std::string::npos);
+    EXPECT_NE(slurp(folder.file("run_scene.inc")).find("#include \"solid_1.inc\"\n"),
+              std::string::npos);
+    const auto written = std::filesystem::last_write_time(folder.file("solid_1.inc"));
+    writePovScene(folder.path(), kPovrayFolder, scene, {}, meshes);
+    EXPECT_EQ(std::filesystem::last_write_time(folder.file("solid_1.inc")), written);
+    EXPECT_EQ(folder.countEntries(), 6u);
+
+    TempFolder other;
+    EXPECT_THROW(writePovScene(other.path(), kPovrayFolder, scene, {}), InputError);
+    EXPECT_EQ(other.countEntries(), 0u);
+}
+
+TEST(PovScene, knowsItsMeshFiles)
+{
+    for (const char* name : {"solid_0.inc", "solid_17.inc"}) {
+        EXPECT_TRUE(isPovSceneFileName(name)) << name;
+    }
+    for (const char* name : {"solid_.inc", "solid_01.inc", "solid_1.pov", "solid_x.inc",
+                             "my_solid_1.inc", "solid_1234567890.inc", "solid_-1.inc"}) {
+        EXPECT_FALSE(isPovSceneFileName(name)) << name;
+    }
+    EXPECT_EQ(povMeshFileName(17), "solid_17.inc");
+}
+
 TEST(PovScene, writesTheConstantsOfTheRun)
 {
     Scene scene;
@@ -297,7 +471,8 @@ TEST(PovScene, writesTheConstantsOfTheRun)
     for (const char* line :
          {"#declare RadiusInMetres = 0.01;\n", "#declare NFrames = 123;\n",
           "#declare FramesPerSecond = 25;\n", "#declare SandMin = <-50,0,-25>;\n",
-          "#declare SandMax = <50,12.5,25>;\n", "#declare CameraPosition = <100,300,200>;\n",
+          "#declare SandMax = <50,12.5,25>;\n",
+          "#declare CameraPosition = <100,300,200>;\n",
           "#declare CameraLookAt = <0,25,50>;\n", "#declare CameraAngle = 32;\n"}) {
         EXPECT_NE(text.find(line), std::string::npos) << line;
     }

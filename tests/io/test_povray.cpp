@@ -1,5 +1,6 @@
 #include "io/pov_frame.h"
 #include "io/pov_scene.h"
+#include "mesh/shapes.h"
 #include "sample_snapshot.h"
 #include "temp_folder.h"
 
@@ -38,7 +39,8 @@ protected:
         PovSceneInfo info;
         info.frameCount = 3;
         info.sand = measureSandBox(heap);
-        writePovScene(folder_.path(), std::string(SANDFLOW_SOURCE_DIR) + "/povray", scene_, info);
+        writePovScene(folder_.path(), std::string(SANDFLOW_SOURCE_DIR) + "/povray", scene_, info,
+                      meshes_);
     }
 
     /// Runs POV-Ray in the run's folder; its exit code. What it printed is in output_.
@@ -72,6 +74,7 @@ protected:
 
     TempFolder folder_;
     Scene scene_;
+    std::vector<SceneMesh> meshes_;
     PovFrameOptions options_;
     std::string output_;
 };
@@ -139,9 +142,96 @@ TEST_F(PovrayTest, showsSolidsOnlyWhileTheyExist)
     EXPECT_FALSE(before == readPixels("scene2.ppm"));
 }
 
+/// The triangles of several meshes as one.
+TriangleMesh joinMeshes(const std::vector<TriangleMesh>& parts)
+{
+    TriangleMesh whole;
+    for (const TriangleMesh& part : parts) {
+        const auto first = static_cast<std::uint32_t>(whole.points.size());
+        whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
+        for (const auto& t : part.triangles) {
+            whole.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+        }
+    }
+    return whole;
+}
+
+TEST_F(PovrayTest, mirrorsNoMesh)
+{
+    // Seen from the front and above: a post at the left, a lower one in front of it, and a bar from
+    // the post's top to the right. Every reflection of it looks different.
+    scene_.solids.clear();
+    SolidSpec figure;
+    figure.shape = SolidShape::mesh;
+    figure.name = "figure";
+    figure.look = "bronze";
+    scene_.solids.push_back(figure);
+    meshes_ = {{0, joinMeshes({makeBoxMesh(Vec3(-0.4, 0.0, 0.0), Vec3(-0.3, 0.1, 1.0)),
+                               makeBoxMesh(Vec3(-0.3, 0.0, 0.9), Vec3(0.4, 0.1, 1.0)),
+                               makeBoxMesh(Vec3(-0.4, -1.0, 0.0), Vec3(-0.3, -0.9, 0.3))})}};
+    scene_.camera.position = Vec3(0.0, -5.0, 2.0);
+    scene_.camera.lookAt = Vec3(0.0, 0.0, 0.5);
+    scene_.camera.angle = 40.0;
+    writeRun();
+    ASSERT_EQ(render("Declare=Quality=0"), 0) << output_;
+    EXPECT_EQ(output_.find("Warning"), std::string::npos) << output_;
+    const std::string with = readPixels("scene.ppm");
+    scene_.solids.clear();
+    meshes_.clear();
+    writeRun();
+    ASSERT_EQ(render("Declare=Quality=0"), 0) << output_;
+    const std::string without = readPixels("scene.ppm");
+
+    const Vec3 eye = *scene_.camera.position;
+    const Vec3 forward = (*scene_.camera.lookAt - eye).normalized();
+    const Vec3 right = forward.cross(Vec3::UnitZ()).normalized();
+    const auto changes = [&](const Vec3& point) {
+        const Vec3 offset = point - eye;
+        const double scale =
+            0.5 * kWidth / (offset.dot(forward) * std::tan(0.5 * 40.0 * kPi / 180.0));
+        const int x = static_cast<int>(0.5 * kWidth + scale * offset.dot(right));
+        const int y =
+            static_cast<int>(0.5 * kHeight - scale * offset.dot(right.cross(forward)));
+        const auto a = pixelAt(with, x, y);
+        const auto b = pixelAt(without, x, y);
+        return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]) > 40;
+    };
+    // PictureSize and with it the lights differ a little between the two, but nothing else is lit
+    // but the sand, which lies elsewhere.
+    EXPECT_TRUE(changes(Vec3(-0.35, 0.0, 0.65)));   // post
+    EXPECT_TRUE(changes(Vec3(0.3, 0.0, 0.95)));     // bar
+    EXPECT_TRUE(changes(Vec3(-0.35, -1.0, 0.15)));  // the lower one
+    EXPECT_FALSE(changes(Vec3(0.35, 0.0, 0.65)));
+    EXPECT_FALSE(changes(Vec3(0.35, -1.0, 0.15)));
+    EXPECT_FALSE(changes(Vec3(0.0, 0.0, 0.5)));
+}
+
+TEST_F(PovrayTest, drawsMeshesOnlyWhileTheyExistAndThoseWithHairlineTriangles)
+{
+    SolidSpec figure;
+    figure.shape = SolidShape::mesh;
+    figure.name = "figure";
+    figure.look = "stone";
+    figure.from = 1.5 / 30.0;
+    figure.until = 2.5 / 30.0;
+    scene_.solids.push_back(figure);
+    TriangleMesh box = makeBoxMesh(Vec3(-0.05, -0.05, 0.0), Vec3(0.05, 0.05, 0.2));
+    // So thin that its corners are written as one point.
+    box.points.push_back(box.points[0] + Vec3(1e-9, 0.0, 0.0));
+    box.triangles.push_back({0, 8, 1});
+    box.triangles.push_back({0, 8, 2});
+    meshes_ = {{1, box}};
+    writeRun();
+    ASSERT_EQ(render("Declare=Quality=0 +KFI1 +KFF3"), 0) << output_;
+    EXPECT_EQ(output_.find("Warning"), std::string::npos) << output_;
+    const std::string before = readPixels("scene1.ppm");
+    EXPECT_TRUE(before == readPixels("scene3.ppm"));
+    EXPECT_FALSE(before == readPixels("scene2.ppm"));
+}
+
 TEST_F(PovrayTest, drawsEveryShapeAndMaterialInEveryQuality)
 {
-    for (const char* look : {"floor", "glass", "ceramic", "wood"}) {
+    for (const char* look : {"floor", "glass", "ceramic", "wood", "stone", "jade", "bronze"}) {
         const double x = 0.1 * static_cast<double>(scene_.solids.size());
         SolidSpec box;
         box.shape = SolidShape::box;
@@ -161,6 +251,13 @@ TEST_F(PovrayTest, drawsEveryShapeAndMaterialInEveryQuality)
         tube.hollow = !box.hollow;
         tube.floor = true;
         scene_.solids.push_back(tube);
+        SolidSpec figure;
+        figure.shape = SolidShape::mesh;
+        figure.name = look;
+        figure.look = look;
+        meshes_.push_back({scene_.solids.size(), makeBoxMesh(Vec3(x, -0.3, 0.0),
+                                                             Vec3(x + 0.05, -0.25, 0.05))});
+        scene_.solids.push_back(figure);
     }
     options_.colourBy = GrainColour::state;
     writeRun();

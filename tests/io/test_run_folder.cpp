@@ -41,7 +41,7 @@ TEST(RunFolder, forceRemovesOnlyWhatARunWrote)
     const std::string ours[] = {"scene.toml", "summary.json", "checkpoint.bin", "state_last.bin",
                                 "state_000007.bin", "frame_000007.inc", "frame_1000000.inc",
                                 "frame_000008.inc.tmp", "scene.pov", "scene.ini",
-                                "run_scene.inc", "materials.inc", "lights.inc"};
+                                "run_scene.inc", "solid_3.inc", "materials.inc", "lights.inc"};
     const std::string theirs[] = {"notes.txt", "scene.png", "scene007.png", "frame_7.inc",
                                   "frame_00000a.inc", "frame_000007.inc.bak", "state_0000007.bin",
                                   "my_scene.toml", "frame_-00007.inc"};

@@ -101,6 +101,9 @@ TEST(OverlapGuard, LetsInExactlyThoseWithRoom)
     setup.law.stiffness = 3000.0;
     setup.largestRadius = 0.006;
     setup.primitives.push_back({});  // smooth plane z = 0
+    Scene scene;
+    scene.solids.push_back(SolidSpec());
+    const SolidSet solids(scene);
     const Dem<float> dem = makeCrowd(setup);
     constexpr double kLimit = OverlapGuard<float>::kLimit;
 
@@ -127,7 +130,7 @@ TEST(OverlapGuard, LetsInExactlyThoseWithRoom)
         grain.position = Vec3(x, y, z);
         grain.radius = size(random);
         std::vector<NewGrain> waiting = {grain}, accepted;
-        guard.admit(dem, 0.0, n % 2 == 0 ? 1 : 0, waiting, accepted);
+        guard.admit(dem, solids, 0.0, n % 2 == 0 ? 1 : 0, waiting, accepted);
         ASSERT_EQ(waiting.size() + accepted.size(), 1u);
         const double overlap = overlapWithCrowd(grain);
         EXPECT_EQ(accepted.size() == 1, overlap <= kLimit)
@@ -144,6 +147,7 @@ TEST(OverlapGuard, ThoseTurnedAwayComeAfterTheNewOnesAndClearEachOther)
     DemSetup setup;
     setup.law.stiffness = 3000.0;
     const Dem<float> dem(setup);
+    const SolidSet solids{Scene()};
     const auto grainAt = [](double x) {
         NewGrain g;
         g.position = Vec3(x, 0.0, 1.0);
@@ -155,7 +159,7 @@ TEST(OverlapGuard, ThoseTurnedAwayComeAfterTheNewOnesAndClearEachOther)
                                      grainAt(0.2)};
     std::vector<NewGrain> accepted;
     OverlapGuard<float> guard;
-    guard.admit(dem, 0.0, 3, waiting, accepted);
+    guard.admit(dem, solids, 0.0, 3, waiting, accepted);
     std::vector<double> in, left;
     for (const NewGrain& g : accepted) {
         in.push_back(g.position.x());
