@@ -51,7 +51,7 @@ def smooth_curve(knots, steps):
     return np.concatenate(pieces + [knots[-1:]])
 
 
-def tube(knots, steps=6, skin=None):
+def tube(knots, steps=10, skin=None):
     """A round tube through knots (x, y, z, radius). `skin(s, angle, radius)`, if given, is added to
     its distance: s in m along the tube, angle 0 on the side that is up at its first knot."""
     curve = smooth_curve(knots, steps)
@@ -242,8 +242,8 @@ def polygonise(figure, cell):
                           np.where(shorter, np.stack([a, c, d], -1), np.stack([b, c, d], -1))]
     points, triangles = largest_component(points, np.concatenate(triangles))
 
-    for sweep in range(8):
-        if sweep < 6:
+    for sweep in range(7):
+        if sweep < 5:
             mean, ends = np.zeros_like(points), np.zeros(len(points))
             for k in range(3):
                 for other in (1, 2):
@@ -256,13 +256,12 @@ def polygonise(figure, cell):
 
 def draw_onto(figure, points, cell):
     """The step from each point to the surface, at most a third of a cell."""
-    slope = np.empty_like(points)
+    away, slope = figure.distance(points), np.empty_like(points)
+    aside = 0.02 * cell
     for axis in range(3):
-        aside = 0.05 * cell * np.eye(3)[axis]
-        slope[:, axis] = (figure.distance(points + aside) - figure.distance(points - aside))
-    slope /= 0.1 * cell
+        slope[:, axis] = (figure.distance(points + aside * np.eye(3)[axis]) - away) / aside
     steepness = np.maximum((slope * slope).sum(1), 0.1)
-    step = -(figure.distance(points) / steepness)[:, None] * slope
+    step = -(away / steepness)[:, None] * slope
     length = np.sqrt((step * step).sum(1))
     return step * np.minimum(1.0, cell / 3.0 / np.maximum(length, 1e-12))[:, None]
 
@@ -270,13 +269,12 @@ def draw_onto(figure, points, cell):
 # ---- Dragon -------------------------------------------------------------------------------------
 
 def scales(around, length, depth):
-    """Rows of rounded scales, `length` m long and `around` of them in a ring, each ring shifted."""
+    """A net of cushions: `around` of them in a ring, `length` m from one ring to the next but one."""
     def skin(s, angle, radius):
-        ring = s / length
-        row = np.floor(ring)
-        across = np.cos(around * angle + np.pi * (row % 2.0))
-        rise = ring - row
-        return depth * np.minimum(radius / 0.04, 1.0) * (rise - 0.3 - 0.35 * across)
+        u = 0.5 * around * angle + np.pi * s / length
+        v = 0.5 * around * angle - np.pi * s / length
+        cushion = np.sqrt(np.abs(np.sin(u) * np.sin(v)))
+        return depth * np.minimum(radius / 0.04, 1.0) * (0.6 - cushion)
     return skin
 
 
@@ -305,52 +303,57 @@ def add_leg(dragon, side, hip, knee, ankle, paw, thick):
     for rise in (0.0, 0.02):
         a = np.asarray(knee, float) + (0.012, rise, side * 0.006)
         dragon.add(tube([(*a, 0.013), (*(a + (0.034, 0.012, side * 0.008)), 0.009),
-                         (*(a + (0.058, 0.034, side * 0.010)), 0.004)]), 0.008)
+                         (*(a + (0.058, 0.034, side * 0.010)), 0.006)]), 0.008)
 
 
 def add_head(dragon):
-    dragon.add(egg((-0.222, 0.405, 0), (0.050, 0.040, 0.040), along=(-1, -0.1, 0)), 0.02)
-    # Upper jaw, nose and lips; the lower jaw hangs open.
-    dragon.add(tube([(-0.235, 0.405, 0, 0.034), (-0.285, 0.398, 0, 0.025),
-                     (-0.325, 0.402, 0, 0.020)]), 0.012)
-    dragon.add(egg((-0.327, 0.413, 0), (0.020, 0.015, 0.024)), 0.008)
-    dragon.add(tube([(-0.222, 0.376, 0, 0.028), (-0.262, 0.345, 0, 0.018),
-                     (-0.300, 0.330, 0, 0.014), (-0.318, 0.334, 0, 0.011)]), 0.010)
-    dragon.add(tube([(-0.300, 0.325, 0, 0.010), (-0.296, 0.300, 0, 0.009),
-                     (-0.282, 0.276, 0, 0.004)]), 0.006)                      # beard
+    dragon.add(egg((-0.222, 0.405, 0), (0.052, 0.041, 0.042), along=(-1, -0.1, 0)), 0.02)
+    # Upper jaw with a broad nose; the lower jaw hangs open.
+    dragon.add(tube([(-0.235, 0.404, 0, 0.034), (-0.285, 0.396, 0, 0.026),
+                     (-0.322, 0.398, 0, 0.022)]), 0.012)
+    dragon.add(egg((-0.326, 0.408, 0), (0.022, 0.018, 0.030)), 0.010)
+    dragon.add(tube([(-0.222, 0.374, 0, 0.028), (-0.262, 0.343, 0, 0.020),
+                     (-0.300, 0.328, 0, 0.016), (-0.316, 0.334, 0, 0.013)]), 0.010)
+    dragon.add(tube([(-0.240, 0.372, 0, 0.016), (-0.275, 0.356, 0, 0.010),
+                     (-0.300, 0.356, 0, 0.007), (-0.314, 0.368, 0, 0.006)]), 0.008)  # tongue
+    dragon.add(tube([(-0.302, 0.322, 0, 0.012), (-0.296, 0.296, 0, 0.011),
+                     (-0.276, 0.270, 0, 0.0065)]), 0.008)                            # beard
     for side in (-1, 1):
-        dragon.add(egg((-0.262, 0.428, side * 0.024), (0.024, 0.010, 0.011), along=(-1, -0.5, 0)),
-                   0.008)                                                     # brow
-        dragon.add(egg((-0.268, 0.416, side * 0.026), (0.010, 0.010, 0.010)), 0.003)
-        dragon.add(egg((-0.334, 0.424, side * 0.014), (0.010, 0.009, 0.009)), 0.006)
-        dragon.cut(egg((-0.344, 0.424, side * 0.014), (0.006, 0.005, 0.005)), 0.003)
-        dragon.add(tube([(-0.326, 0.388, side * 0.014, 0.007),
-                         (-0.328, 0.364, side * 0.015, 0.0035)]), 0.005)      # fang
+        dragon.add(egg((-0.266, 0.414, side * 0.025), (0.0135, 0.0135, 0.0125)), 0.002)
+        dragon.add(tube([(-0.288, 0.418, side * 0.020, 0.006), (-0.272, 0.434, side * 0.028, 0.009),
+                         (-0.248, 0.434, side * 0.034, 0.010),
+                         (-0.222, 0.448, side * 0.042, 0.006)]), 0.005)              # brow
+        dragon.add(egg((-0.332, 0.422, side * 0.017), (0.012, 0.011, 0.012)), 0.006)
+        dragon.add(tube([(-0.324, 0.388, side * 0.016, 0.009),
+                         (-0.328, 0.362, side * 0.017, 0.0055)]), 0.005)             # fang
+        dragon.add(tube([(-0.322, 0.398, side * 0.022, 0.009), (-0.322, 0.380, side * 0.052, 0.0075),
+                         (-0.292, 0.362, side * 0.074, 0.007),
+                         (-0.258, 0.372, side * 0.088, 0.006)]), 0.006)              # whisker
         # Antlers with one branch.
-        dragon.add(tube([(-0.225, 0.432, side * 0.020, 0.013), (-0.190, 0.460, side * 0.034, 0.011),
-                         (-0.148, 0.470, side * 0.044, 0.009),
-                         (-0.108, 0.488, side * 0.042, 0.005)]), 0.008)
-        dragon.add(tube([(-0.170, 0.466, side * 0.038, 0.009),
-                         (-0.160, 0.490, side * 0.052, 0.005)]), 0.006)
+        dragon.add(tube([(-0.225, 0.432, side * 0.020, 0.014), (-0.190, 0.460, side * 0.034, 0.012),
+                         (-0.148, 0.468, side * 0.046, 0.010),
+                         (-0.108, 0.484, side * 0.044, 0.0065)]), 0.008)
+        dragon.add(tube([(-0.174, 0.464, side * 0.038, 0.010),
+                         (-0.160, 0.488, side * 0.056, 0.0065)]), 0.006)
         # Mane: flames from the cheeks backwards.
-        for height, out, back in ((0.412, 0.040, 0.080), (0.390, 0.045, 0.085),
-                                  (0.366, 0.038, 0.070)):
+        for height, out, back in ((0.416, 0.044, 0.076), (0.392, 0.054, 0.085),
+                                  (0.366, 0.046, 0.070)):
             root = np.array([-0.214, height, side * 0.026])
-            tip = root + (back, -0.006, side * out)
-            dragon.add(tube([(*root, 0.015), (*(0.5 * (root + tip) + (0, -0.006, side * 0.010)),
-                                              0.012), (*tip, 0.004)]), 0.008)
+            tip = root + (back, 0.004, side * out)
+            dragon.add(tube([(*root, 0.015), (*(0.5 * (root + tip) + (0, -0.012, side * 0.010)),
+                                              0.013), (*tip, 0.006)]), 0.006)
 
 
 def make_dragon():
     dragon = Figure()
-    dragon.add(tube(SPINE, skin=scales(12, 0.026, 0.004)))
+    dragon.add(tube(SPINE, steps=8, skin=scales(10, 0.042, 0.0045)))
 
     for side in (-1, 1):
         front, hind = (-0.105, 0.158), (0.130, 0.170)
-        add_leg(dragon, side, (*front, side * 0.055), (-0.078, 0.098, side * 0.098),
-                (-0.108, 0.046, side * 0.112), (-0.130, 0.020, side * 0.116), 0.036)
-        add_leg(dragon, side, (*hind, side * 0.055), (0.108, 0.098, side * 0.104),
-                (0.172, 0.060, side * 0.112), (0.150, 0.020, side * 0.118), 0.040)
+        add_leg(dragon, side, (*front, side * 0.055), (-0.078, 0.098, side * 0.088),
+                (-0.108, 0.046, side * 0.098), (-0.130, 0.020, side * 0.098), 0.036)
+        add_leg(dragon, side, (*hind, side * 0.055), (0.108, 0.098, side * 0.092),
+                (0.172, 0.060, side * 0.098), (0.150, 0.020, side * 0.099), 0.040)
 
     # The crest: flames along the spine that lean backwards.
     line = smooth_curve(SPINE, 6)
@@ -361,9 +364,9 @@ def make_dragon():
             *(np.interp(s + 0.01, way, line[:, k]) - np.interp(s, way, line[:, k])
               for k in range(3)))
         ahead = unit((ahead_x, ahead_y, ahead_z))
-        outward = unit(np.cross((0, 0, -1.0), ahead))
+        outward = unit(np.cross((0, 0, 1.0), ahead))
         foot = np.array([x, y, z]) + 0.85 * radius * outward
-        size = 0.016 + 0.40 * radius
+        size = 0.017 + 0.48 * radius
         dragon.add(egg(foot + 0.2 * size * ahead, (1.25 * size, 0.45 * size, 0.0075),
                        along=outward + 0.7 * ahead, up=ahead), 0.008)
     add_head(dragon)
@@ -372,44 +375,53 @@ def make_dragon():
     for lean, height in ((-0.030, 0.055), (0.0, 0.075), (0.034, 0.050)):
         dragon.add(tube([(0.258, 0.300, 0.014, 0.011),
                          (0.258 + 0.7 * lean, 0.300 + 0.55 * height, 0.018, 0.012),
-                         (0.258 + lean, 0.300 + height, 0.018, 0.004)]), 0.008)
+                         (0.258 + lean, 0.300 + height, 0.018, 0.006)]), 0.008)
     dragon.cut(above(0.0), 0.004)
-    return polygonise(dragon, 0.0056)
+    points, triangles = polygonise(dragon, 0.0056)
+    return points * (0.7 / np.ptp(points[:, 0])), triangles
 
 
 # ---- Armadillo ----------------------------------------------------------------------------------
 
 def banded(shape, depth, pitch):
-    """The shape with grooves across, level behind and rising to the front."""
+    """The shape with grooves across, level behind and falling to the front."""
     def distance(points):
         wave = np.cos(2.0 * np.pi * (points[:, 1] + 0.35 * points[:, 2]) / pitch)
         return shape.distance(points) + depth * np.maximum(wave, -0.3)
     return Shape(shape.low - depth, shape.high + depth, distance)
 
 
+def rings(depth, pitch):
+    return lambda s, angle, radius: depth * np.maximum(np.cos(2.0 * np.pi * s / pitch), -0.3)
+
+
 def add_arm(animal, side, elbow, wrist, palm):
-    animal.add(egg((side * 0.140, 0.535, 0.010), (0.070, 0.062, 0.066)), 0.03)
+    animal.add(egg((side * 0.140, 0.535, 0.010), (0.074, 0.062, 0.068), along=(side, 0.3, 0)), 0.03)
     animal.add(tube([(side * 0.120, 0.530, 0.010, 0.056), (side * elbow[0], *elbow[1:], 0.042),
-                     (side * wrist[0], *wrist[1:], 0.033)]), 0.02)
+                     (side * wrist[0], *wrist[1:], 0.033)], steps=16,
+                    skin=rings(0.002, 0.030)), 0.02)
     animal.add(egg((side * palm[0], *palm[1:]), (0.036, 0.038, 0.026)), 0.015)
-    for spread in (-0.75, -0.1, 0.55):
-        x, y, z = palm
-        way = np.array([np.sin(0.75 + spread), np.cos(0.75 + spread), -0.35])
-        knots = [np.array([x, y, z]) + reach * way + (0, 0, fall)
+    for spread in (-0.85, -0.15, 0.55):
+        way = np.array([np.sin(0.45 + spread), np.cos(0.45 + spread), -0.35])
+        knots = [np.array(palm) + reach * way + (0, 0, fall)
                  for reach, fall in ((0.02, 0), (0.055, 0), (0.085, -0.016))]
         animal.add(tube([(side * k[0], k[1], k[2], r)
-                         for k, r in zip(knots, (0.019, 0.016, 0.005))]), 0.008)
+                         for k, r in zip(knots, (0.020, 0.017, 0.008))]), 0.008)
+    x, y, z = palm                                                       # thumb
+    animal.add(tube([(side * (x - 0.02), y - 0.01, z - 0.010, 0.018),
+                     (side * (x - 0.045), y + 0.005, z - 0.040, 0.015),
+                     (side * (x - 0.050), y + 0.025, z - 0.062, 0.008)]), 0.008)
 
 
 def add_leg_and_foot(animal, side):
     animal.add(tube([(side * 0.085, 0.280, 0.010, 0.088), (side * 0.128, 0.190, -0.030, 0.076),
-                     (side * 0.140, 0.110, 0.000, 0.055), (side * 0.142, 0.045, 0.010, 0.050)]),
+                     (side * 0.140, 0.110, 0.000, 0.055), (side * 0.142, 0.045, 0.010, 0.050)], steps=16),
                0.03)
     animal.add(egg((side * 0.150, 0.030, -0.035), (0.058, 0.042, 0.085)), 0.02)
     for spread in (-0.035, 0.0, 0.035):
         animal.add(tube([(side * (0.152 + spread), 0.028, -0.085, 0.024),
                          (side * (0.154 + 1.25 * spread), 0.024, -0.128, 0.019),
-                         (side * (0.156 + 1.4 * spread), 0.006, -0.160, 0.006)]), 0.008)
+                         (side * (0.156 + 1.4 * spread), 0.010, -0.160, 0.009)]), 0.008)
 
 
 def add_face(animal):
@@ -419,10 +431,11 @@ def add_face(animal):
                      (0, 0.600, -0.236, 0.031)]), 0.02)
     animal.add(egg((0, 0.610, -0.262), (0.022, 0.016, 0.014)), 0.006)
     for side in (-1, 1):
-        animal.add(egg((side * 0.050, 0.672, -0.142), (0.019, 0.019, 0.019)), 0.004)
-        animal.add(egg((side * 0.050, 0.694, -0.132), (0.030, 0.010, 0.022)), 0.008)
+        animal.add(egg((side * 0.054, 0.663, -0.143), (0.021, 0.021, 0.020)), 0.003)
+        animal.add(tube([(side * 0.026, 0.676, -0.158, 0.009), (side * 0.050, 0.690, -0.148, 0.013),
+                         (side * 0.076, 0.676, -0.122, 0.009)]), 0.010)
         lean = (side * 0.35, 1.0, 0.10)
-        ear = np.array([side * 0.078, 0.732, -0.040])
+        ear = np.array([side * 0.076, 0.722, -0.040])
         animal.add(egg(ear, (0.086, 0.046, 0.020), along=lean, up=(1, 0, 0)), 0.012)
         animal.cut(egg(ear + (side * 0.003, 0.008, -0.020), (0.062, 0.030, 0.014), along=lean,
                        up=(1, 0, 0)), 0.008)
@@ -435,16 +448,17 @@ def add_face(animal):
 def make_armadillo():
     animal = Figure()
     animal.add(egg((0, 0.300, 0.010), (0.135, 0.115, 0.115)))
-    animal.add(egg((0, 0.390, -0.005), (0.132, 0.130, 0.112)), 0.04)
+    animal.add(banded(egg((0, 0.390, -0.010), (0.132, 0.135, 0.116)), 0.003, 0.044), 0.03)
     animal.add(egg((0, 0.495, 0.000), (0.150, 0.115, 0.110)), 0.04)
     animal.add(banded(egg((0, 0.430, 0.070), (0.172, 0.205, 0.128)), 0.006, 0.048), 0.012)
     for side in (-1, 1):
         add_leg_and_foot(animal, side)
-    add_arm(animal, -1, (0.225, 0.520, 0.000), (0.270, 0.590, -0.040), (0.285, 0.630, -0.055))
-    add_arm(animal, 1, (0.230, 0.510, -0.005), (0.280, 0.560, -0.060), (0.297, 0.595, -0.080))
+    add_arm(animal, -1, (0.215, 0.520, 0.000), (0.255, 0.590, -0.040), (0.268, 0.630, -0.055))
+    add_arm(animal, 1, (0.218, 0.510, -0.005), (0.265, 0.560, -0.060), (0.280, 0.597, -0.080))
     add_face(animal)
     animal.add(banded(tube([(0, 0.270, 0.110, 0.080), (0, 0.150, 0.180, 0.056),
                             (0.015, 0.055, 0.245, 0.036), (0.030, 0.024, 0.310, 0.022),
                             (0.015, 0.018, 0.350, 0.008)]), 0.003, 0.040), 0.02)
     animal.cut(above(0.0), 0.004)
-    return polygonise(animal, 0.0068)
+    points, triangles = polygonise(animal, 0.0073)
+    return points * (0.8 / np.ptp(points[:, 1])), triangles
