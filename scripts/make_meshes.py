@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the meshes of the scenes into meshes/ (or the folder given): terrain and bowl.
+"""Makes the meshes of the scenes into meshes/ (or the folder given): terrain, bowl, two figures.
 
 Each is binary little-endian PLY in metres, closed, facing outwards, and the same bytes every time.
 """
@@ -11,6 +11,8 @@ try:
 except ImportError:
     sys.exit("make_meshes.py needs numpy (Debian: apt-get install python3-numpy)")
 
+sys.dont_write_bytecode = True    # no folder of it beside the scripts
+import figures
 
 # ---- Meshes -------------------------------------------------------------------------------------
 
@@ -218,6 +220,10 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     write(folder, "terrain", *make_terrain(), "hills for a box of 1.2 x 1.2 m, in metres, z up")
     write(folder, "bowl", *make_bowl(), "a bowl of 0.58 m inner radius, in metres, z up")
+    write(folder, "stand_in_dragon", *figures.make_dragon(),
+          "a dragon 0.7 m long, in metres, y up, looks along -x")
+    write(folder, "stand_in_armadillo", *figures.make_armadillo(),
+          "an animal 0.8 m high, in metres, y up, looks along -z")
 
 
 if __name__ == "__main__":
