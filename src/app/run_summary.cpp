@@ -160,6 +160,11 @@ std::string RunSummary::text() const
         ledger.balances() ? "balances" : "DOES NOT BALANCE");
     out += fmt::format("heap: repose {} deg, apex {:.4f} m, r90 {:.4f} m; leaks {}\n",
                        repose_ ? fmt::format("{:.2f}", *repose_) : "none", apex_, r90_, leaks_);
+    if (!reports_.empty() && reports_.back().heldBack > 0) {
+        out += fmt::format("{} grains never came in: their place at the emitter was taken to the "
+                           "end (sand lies there, or a solid)\n",
+                           reports_.back().heldBack);
+    }
     out += fmt::format("{:.4f} s/frame while pouring; skipped {:.1f} % of all grain steps; state "
                        "{:016x}\n",
                        meanWall(),
