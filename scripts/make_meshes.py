@@ -14,7 +14,6 @@ except ImportError:
 sys.dont_write_bytecode = True    # no folder of it beside the scripts
 import figures
 
-
 # ---- Meshes -------------------------------------------------------------------------------------
 
 def check(name, points, triangles):
@@ -33,26 +32,19 @@ def check(name, points, triangles):
     if len(np.unique(forth)) != len(forth) or not np.array_equal(np.sort(forth), np.sort(back)):
         sys.exit(f"{name}: an edge is open, shared by more than two triangles or turned over")
 
-    # Around each corner the triangles form one ring: following "next triangle around this corner"
-    # must come back after as many steps as the corner has triangles.
+    # Around each corner the triangles form one ring. "Next edge around this corner" permutes the
+    # edges; each cycle of it is labelled with its smallest edge, by doubling the stride.
     order = np.argsort(forth)
-    corner_after = {}
-    slots = np.arange(len(tails))
-    previous = slots - slots % 3 + (slots + 2) % 3           # the edge that ends at this corner
-    twin = order[np.searchsorted(forth[order], back)]        # the same edge in the neighbour
-    following = twin[previous]                               # leaves the same corner again
-    ring = np.full(len(tails), -1)
-    rings = 0
-    for slot in slots:
-        if ring[slot] < 0:
-            at = slot
-            while ring[at] < 0:
-                ring[at] = rings
-                at = following[at]
-            corner_after.setdefault(int(tails[slot]), 0)
-            corner_after[int(tails[slot])] += 1
-            rings += 1
-    if rings != len(points) or len(corner_after) != len(points):
+    edges = np.arange(len(forth))
+    ends_here = edges - edges % 3 + (edges + 2) % 3
+    stride = order[np.searchsorted(forth[order], back)][ends_here]
+    label = edges
+    while True:
+        smaller = np.minimum(label, label[stride])
+        if np.array_equal(smaller, label):
+            break
+        label, stride = smaller, stride[stride]
+    if len(np.unique(label)) != len(points) or len(np.unique(tails)) != len(points):
         sys.exit(f"{name}: a corner is unused, or two parts of the surface touch in it")
 
     volume = np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0
@@ -62,7 +54,7 @@ def check(name, points, triangles):
 
 
 def write(folder, name, points, triangles, comment):
-    """Rounds to micrometres, so that no library's last bit shows in the file; checks what is left."""
+    """Rounds to micrometres, so that no library's last bit shows in the file, and checks."""
     points = (np.round(points, 6) + 0.0).astype("<f4")
     volume = check(name, points.astype(float), triangles)
     faces = np.empty(len(triangles), dtype=[("n", "u1"), ("corners", "<i4", 3)])
@@ -71,7 +63,8 @@ def write(folder, name, points, triangles, comment):
     header = (f"ply\nformat binary_little_endian 1.0\ncomment {comment}\n"
               f"element vertex {len(points)}\n"
               "property float x\nproperty float y\nproperty float z\n"
-              f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n")
+              f"element face {len(triangles)}\n"
+              "property list uchar int vertex_indices\nend_header\n")
     data = header.encode("ascii") + points.tobytes() + faces.tobytes()
     path = folder / f"{name}.ply"
     unfinished = path.with_suffix(".ply.tmp")
@@ -99,7 +92,9 @@ HILLS = [
 
 
 def terrain_height(x, y):
-    height = 0.012 * np.sin(5.1 * x + 1.0) * np.cos(4.3 * y - 0.6)
+    # Long swells, turned against the square, so that no slope is as even as a bell's.
+    height = (0.012 * np.sin(5.1 * x + 2.2 * y + 1.0) * np.cos(4.3 * y - 1.7 * x - 0.6)
+              + 0.006 * np.sin(13.0 * x - 7.0 * y) * np.sin(6.0 * x + 12.0 * y + 0.8))
     for centre_x, centre_y, top, along, across, degrees in HILLS:
         turn = np.radians(degrees)
         u = (x - centre_x) * np.cos(turn) + (y - centre_y) * np.sin(turn)
@@ -149,12 +144,11 @@ WALL_AT_BOTTOM, WALL_AT_RIM = 0.016, 0.0125
 def bowl_profile():
     """(radius, z) of the half section, from the middle inside over the rim to the middle below."""
     floor = FOOT_HEIGHT + WALL_AT_BOTTOM
-    rim = floor + DEPTH
-    bead = 0.5 * WALL_AT_RIM                           # the rim is rounded with this radius
+    bead_rise = 0.0034                                 # of the rounded rim above its inner edge
     # The inside: round below, ever steeper, with a slight flare of the lip.
     s = np.linspace(0.0, 1.0, 400)
     radius = RIM_RADIUS * (s + 0.16 * s * (1.0 - s) + 0.05 * s ** 2 * (1 - s) ** 2)
-    z = floor + (DEPTH - bead) * (0.86 * s ** 2.35 + 0.14 * s ** 5)
+    z = floor + (DEPTH - bead_rise) * (0.86 * s ** 2.35 + 0.14 * s ** 5)
     slope = np.stack([np.gradient(radius, s), np.gradient(z, s)], -1)
     slope /= np.linalg.norm(slope, axis=1, keepdims=True)
     slope[0] = [1.0, 0.0]                              # level in the middle
@@ -178,8 +172,10 @@ def bowl_profile():
     arcs = [
         np.stack([foot_out + fillet * (1 - np.sin(quarter)),
                   underside - fillet * (1 - np.cos(quarter))], -1),
-        np.stack([foot_out - 0.004 - edge * (1 - np.cos(quarter)), edge * (1 - np.sin(quarter))], -1),
-        np.stack([foot_in + 0.004 + edge * (1 - np.sin(quarter)), edge * (1 - np.cos(quarter))], -1),
+        np.stack([foot_out - 0.004 - edge * (1 - np.cos(quarter)),
+                  edge * (1 - np.sin(quarter))], -1),
+        np.stack([foot_in + 0.004 + edge * (1 - np.sin(quarter)),
+                  edge * (1 - np.cos(quarter))], -1),
         np.stack([foot_in - fillet * (1 - np.cos(quarter)),
                   FOOT_HEIGHT - fillet * (1 - np.sin(quarter))], -1),
     ]

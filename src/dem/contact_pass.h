@@ -17,13 +17,13 @@ namespace sandflow {
 ///   load(p)                       lane l = p[l]
 ///   gatherRows(row, k, v)         v[c] lane l = row(l)[k + c],  c < 4
 ///   scatterRows(v, row, k)        row(l)[k + c] = v[c] lane l
-///   storeRows(v, p)               p[storedRow(l) + c] = v[c] lane l
+///   storeSums(v, w, p)            p[storedSum(l) + c] = v[c] lane l, p[storedSum(l) + 4 + c] = w[c]
+///                                 lane l
 ///   bitsOf(mask)                  bit l = mask lane l
 ///   append(mask, apart, packed, p, out, at)
 ///                                 lanes of the mask to out[at], out[at + 1], ..., with p + l as
 ///                                 pair; what follows them is overwritten
-///   addRow(sum, row), addRowTurned(sum, row)
-///                                 sum[c] += row[c]; turned: the first three are subtracted
+///   addSum(sum, row)              sum[c] += row[c],  c < 8
 ///   largest(v)                    over lanes
 ///
 /// The same bits for any width: what lanes compute is one pair's alone, and sums are added up pair
@@ -258,26 +258,24 @@ private:
             Lanes::scatterRows({s.z, q.x, q.y, q.z}, springRow, kTailRow);
         }
 
-        alignas(64) Number force[4 * kWidth], torque[4 * kWidth], partnerTorque[4 * kWidth];
+        // As they stand in ContactSum.
+        alignas(64) Number own[8 * kWidth], given[8 * kWidth];
         const Real pushes = select(f.normal > Real(0), Real(1), Real(0));
-        Lanes::storeRows({f.force.x, f.force.y, f.force.z, f.normal}, force);
-        Lanes::storeRows({f.torque.x, f.torque.y, f.torque.z, pushes}, torque);
+        Lanes::storeSums({f.force.x, f.force.y, f.force.z, f.normal},
+                         {f.torque.x, f.torque.y, f.torque.z, pushes}, own);
         if constexpr (!foreign) {
-            Lanes::storeRows({f.partnerTorque.x, f.partnerTorque.y, f.partnerTorque.z, pushes},
-                             partnerTorque);
+            const Vec<Real>& t = f.partnerTorque;
+            Lanes::storeSums({-f.force.x, -f.force.y, -f.force.z, f.normal},
+                             {t.x, t.y, t.z, pushes}, given);
         }
         const auto add = [&](std::uint32_t l) {
-            const std::uint32_t row = Lanes::storedRow(l);
-            ContactSum<Number>& sum = sumAt(grainAt(l));
-            Lanes::addRow(&sum.fx, force + row);
-            Lanes::addRow(&sum.tx, torque + row);
+            const std::uint32_t row = Lanes::storedSum(l);
+            Lanes::addSum(&sumAt(grainAt(l)).fx, own + row);
             if constexpr (foreign) {
-                noteWake(touching.packed[first + l], *partner(l), force[row + 3]);
+                noteWake(touching.packed[first + l], *partner(l), own[row + 3]);
             } else {
-                ContactSum<Number>& other =
-                    sumAt(own_pair::higherOffset(touching.packed[first + l]));
-                Lanes::addRowTurned(&other.fx, force + row);
-                Lanes::addRow(&other.tx, partnerTorque + row);
+                Lanes::addSum(&sumAt(own_pair::higherOffset(touching.packed[first + l])).fx,
+                              given + row);
             }
         };
         if (count == kWidth) [[likely]] {

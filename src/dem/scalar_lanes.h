@@ -3,6 +3,7 @@
 #include "core/small_vec.h"
 #include "dem/chunk_pass.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -48,20 +49,21 @@ struct ScalarLanes {
     template <class RowOf>
     static void scatterRows(const Row& row, RowOf to, std::size_t k)
     {
-        storeRows(row, to(0) + k);
+        std::copy(row.v, row.v + 4, to(0) + k);
     }
-    static void storeRows(const Row& row, Number* p)
+    static void storeSums(const Row& v, const Row& w, Number* p)
     {
-        p[0] = row.v[0], p[1] = row.v[1], p[2] = row.v[2], p[3] = row.v[3];
+        for (int c = 0; c < 4; ++c) {
+            p[c] = v.v[c];
+            p[c + 4] = w.v[c];
+        }
     }
-    static std::uint32_t storedRow(std::uint32_t) { return 0; }
-    static void addRow(Number* sum, const Number* row)
+    static std::uint32_t storedSum(std::uint32_t) { return 0; }
+    static void addSum(Number* sum, const Number* row)
     {
-        sum[0] += row[0], sum[1] += row[1], sum[2] += row[2], sum[3] += row[3];
-    }
-    static void addRowTurned(Number* sum, const Number* row)
-    {
-        sum[0] -= row[0], sum[1] -= row[1], sum[2] -= row[2], sum[3] += row[3];
+        for (int c = 0; c < 8; ++c) {
+            sum[c] += row[c];
+        }
     }
     static Number largest(Number v) { return v; }
     static std::uint32_t bitsOf(bool mask) { return mask; }

@@ -17,7 +17,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Lanes32 = hn::CappedTag<float, 16>;
 using Lanes64 = hn::Repartition<double, Lanes32>;
-using RowTag = hn::FixedTag<float, 4>;
 inline constexpr std::uint32_t kLaneCount = HWY_MIN(16, HWY_LANES(float));
 
 /// Which lanes: what a comparison of LaneFloat gives.
@@ -222,29 +221,37 @@ struct SimdLanes {
                    out.packed + at);
         hn::StoreU(hn::BitCast(du, pack(hn::BitCast(d, hn::Iota(du, p)))), du, out.pair + at);
     }
-    static HWY_INLINE void storeRows(const Row& r, float* p)
+    static HWY_INLINE void storeSums(const Row& r, const Row& q, float* p)
     {
-        LaneFloat part[4];
-        transpose(r.v[0].v, r.v[1].v, r.v[2].v, r.v[3].v, part);
+        const Lanes32 d;
+        LaneFloat first[4], second[4];
+        transpose(r.v[0].v, r.v[1].v, r.v[2].v, r.v[3].v, first);
+        transpose(q.v[0].v, q.v[1].v, q.v[2].v, q.v[3].v, second);
         for (std::size_t m = 0; m < 4; ++m) {
-            hn::Store(part[m].v, Lanes32(), p + m * kLaneCount);
+            float* const at = p + 2 * m * kLaneCount;
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2
+            // Blocks of even lanes with theirs, then those of odd ones.
+            hn::Store(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(second[m].v), first[m].v), d, at);
+            hn::Store(hn::OddEvenBlocks(second[m].v, hn::SwapAdjacentBlocks(first[m].v)), d,
+                      at + kLaneCount);
+#else
+            hn::Store(first[m].v, d, at);
+            hn::Store(second[m].v, d, at + kLaneCount);
+#endif
         }
     }
-    static HWY_INLINE std::uint32_t storedRow(std::uint32_t lane)
+    static HWY_INLINE std::uint32_t storedSum(std::uint32_t lane)
     {
-        return lane % 4 * kLaneCount + lane / 4 * 4;
+        const std::uint32_t block = lane / 4;
+        return lane % 4 * 2 * kLaneCount + block % 2 * kLaneCount + block / 2 * 8;
     }
-    static HWY_INLINE void addRow(float* sum, const float* row)
+    static HWY_INLINE void addSum(float* sum, const float* row)
     {
-        const RowTag d;
-        hn::Store(hn::Add(hn::Load(d, sum), hn::Load(d, row)), d, sum);
-    }
-    static HWY_INLINE void addRowTurned(float* sum, const float* row)
-    {
-        const RowTag d;
-        alignas(16) static constexpr float kSigns[4] = {-0.0f, -0.0f, -0.0f, 0.0f};
-        const auto turned = hn::Xor(hn::Load(d, row), hn::Load(d, kSigns));
-        hn::Store(hn::Add(hn::Load(d, sum), turned), d, sum);
+        constexpr std::uint32_t step = HWY_MIN(8, kLaneCount);
+        const hn::FixedTag<float, step> d;
+        for (std::uint32_t c = 0; c < 8; c += step) {
+            hn::Store(hn::Add(hn::Load(d, sum + c), hn::Load(d, row + c)), d, sum + c);
+        }
     }
     static HWY_INLINE float largest(LaneFloat a)
     {
