@@ -218,9 +218,9 @@ def polygonise(figure, cell):
             if corner[axis] == 0:
                 n = CORNER[tuple(corner + np.eye(3, dtype=int)[axis])]
                 crossed = (at[:, m] < 0.0) != (at[:, n] < 0.0)
-                step = np.where(crossed, at[:, m], 0.0) / np.where(crossed, at[:, m] - at[:, n], 1.0)
+                rise = np.where(crossed, at[:, m] - at[:, n], 1.0)
                 total[crossed] += corner
-                total[:, axis] += step
+                total[:, axis] += np.where(crossed, at[:, m], 0.0) / rise
                 count += crossed[:, None]
     points = low + cell * (np.argwhere(cut) + total / count)
 
@@ -269,7 +269,7 @@ def draw_onto(figure, points, cell):
 # ---- Dragon -------------------------------------------------------------------------------------
 
 def scales(around, length, depth):
-    """A net of cushions: `around` of them in a ring, `length` m from one ring to the next but one."""
+    """A net of cushions for a tube: `around` of them in a ring, each `length` m long."""
     def skin(s, angle, radius):
         u = 0.5 * around * angle + np.pi * s / length
         v = 0.5 * around * angle - np.pi * s / length
@@ -326,7 +326,8 @@ def add_head(dragon):
         dragon.add(egg((-0.332, 0.422, side * 0.017), (0.012, 0.011, 0.012)), 0.006)
         dragon.add(tube([(-0.324, 0.388, side * 0.016, 0.009),
                          (-0.328, 0.362, side * 0.017, 0.0055)]), 0.005)             # fang
-        dragon.add(tube([(-0.322, 0.398, side * 0.022, 0.009), (-0.322, 0.380, side * 0.052, 0.0075),
+        dragon.add(tube([(-0.322, 0.398, side * 0.022, 0.009),
+                         (-0.322, 0.380, side * 0.052, 0.0075),
                          (-0.292, 0.362, side * 0.074, 0.007),
                          (-0.258, 0.372, side * 0.088, 0.006)]), 0.006)              # whisker
         # Antlers with one branch.
@@ -391,15 +392,10 @@ def banded(shape, depth, pitch):
     return Shape(shape.low - depth, shape.high + depth, distance)
 
 
-def rings(depth, pitch):
-    return lambda s, angle, radius: depth * np.maximum(np.cos(2.0 * np.pi * s / pitch), -0.3)
-
-
 def add_arm(animal, side, elbow, wrist, palm):
     animal.add(egg((side * 0.140, 0.535, 0.010), (0.074, 0.062, 0.068), along=(side, 0.3, 0)), 0.03)
     animal.add(tube([(side * 0.120, 0.530, 0.010, 0.056), (side * elbow[0], *elbow[1:], 0.042),
-                     (side * wrist[0], *wrist[1:], 0.033)], steps=16,
-                    skin=rings(0.002, 0.030)), 0.02)
+                     (side * wrist[0], *wrist[1:], 0.033)], steps=16), 0.02)
     animal.add(egg((side * palm[0], *palm[1:]), (0.036, 0.038, 0.026)), 0.015)
     for spread in (-0.85, -0.15, 0.55):
         way = np.array([np.sin(0.45 + spread), np.cos(0.45 + spread), -0.35])
@@ -415,8 +411,8 @@ def add_arm(animal, side, elbow, wrist, palm):
 
 def add_leg_and_foot(animal, side):
     animal.add(tube([(side * 0.085, 0.280, 0.010, 0.088), (side * 0.128, 0.190, -0.030, 0.076),
-                     (side * 0.140, 0.110, 0.000, 0.055), (side * 0.142, 0.045, 0.010, 0.050)], steps=16),
-               0.03)
+                     (side * 0.140, 0.110, 0.000, 0.055), (side * 0.142, 0.045, 0.010, 0.050)],
+                    steps=16), 0.03)
     animal.add(egg((side * 0.150, 0.030, -0.035), (0.058, 0.042, 0.085)), 0.02)
     for spread in (-0.035, 0.0, 0.035):
         animal.add(tube([(side * (0.152 + spread), 0.028, -0.085, 0.024),
