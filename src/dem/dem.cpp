@@ -1,6 +1,7 @@
 #include "dem/dem.h"
 
 #include "core/errors.h"
+#include "dem/chunk_turns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -245,11 +246,13 @@ void Dem<Real>::step(double dt, bool observe)
     input.dt = dt;
     const ForceKernel<Real>& kernel = observe ? *observingKernel_ : *kernel_;
 
-    const auto chunkCount = static_cast<std::int64_t>(lists_.chunkCount());
+    const ChunkTurns turns(lists_.chunkCount());
     // One chunk is not worth waking the other threads for.
-#pragma omp parallel for schedule(dynamic, 1) if (chunkCount > 1)
-    for (std::int64_t c = 0; c < chunkCount; ++c) {
-        kernel.stepChunk(static_cast<std::uint32_t>(c), input, mobile_, lists_, reports_[c]);
+#pragma omp parallel for schedule(dynamic, 1) if (turns.count() > 1)
+    for (std::int64_t t = 0; t < turns.count(); ++t) {
+        for (std::uint32_t c = turns.begin(t); c < turns.begin(t + 1); ++c) {
+            kernel.stepChunk(c, input, mobile_, lists_, reports_[c]);
+        }
     }
     mobile_.record.swap(mobile_.next);
 
