@@ -60,6 +60,7 @@ void RunSummary::finish(const Simulation& sand, const Snapshot& last)
     hash_ = sand.stateHash();
     bytesMobile_ = sand.bytesMobile();
     bytesBuried_ = sand.bytesBuried();
+    bytesCover_ = sand.bytesCover();
     const HeapFigures heap = measureHeap(last);
     apex_ = heap.apex;
     r90_ = heap.r90;
@@ -112,7 +113,8 @@ JsonWriter RunSummary::json() const
     json.member("stiffness", plan_.law.stiffness);
     json.member("stiffness_reason", plan_.stiffness.reason);
     json.member("peak_rss_bytes", peakRssBytes());
-    json.member("dem_bytes", bytesMobile_).member("buried_bytes", bytesBuried_);
+    json.member("dem_bytes", bytesMobile_).member("cover_bytes", bytesCover_);
+    json.member("buried_bytes", bytesBuried_);
     json.member("state_hash", fmt::format("{:016x}", hash_));
     json.key("heap").beginObject();
     json.key("repose_deg");

@@ -33,7 +33,7 @@ private:
     std::vector<FrameRow> rows_;
     TransferReport transfer_;
     std::uint64_t leaks_ = 0, hash_ = 0;
-    std::size_t bytesMobile_ = 0, bytesBuried_ = 0;
+    std::size_t bytesMobile_ = 0, bytesBuried_ = 0, bytesCover_ = 0;
     double apex_ = 0, r90_ = 0;
     std::optional<double> repose_;
     std::vector<MeshFigures> meshes_;

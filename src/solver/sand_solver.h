@@ -29,6 +29,7 @@ public:
     std::uint64_t stateHash() const override;
     std::uint64_t countLeaks() const override;
     std::size_t bytesMobile() const override { return dem_.bytes(); }
+    std::size_t bytesCover() const override { return dem_.boundary().bytes(); }
     std::size_t bytesBuried() const override { return buried_.bytes(); }
 
 private:

@@ -81,7 +81,8 @@ public:
     /// not move cannot leak: of the mobile ones only.
     virtual std::uint64_t countLeaks() const = 0;
 
-    virtual std::size_t bytesMobile() const = 0;
+    virtual std::size_t bytesMobile() const = 0;  ///< all of step 3, the next included
+    virtual std::size_t bytesCover() const = 0;   ///< particles of rough solids
     virtual std::size_t bytesBuried() const = 0;
 };
 
