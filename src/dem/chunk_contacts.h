@@ -108,7 +108,7 @@ struct ChunkContacts {
         const auto fit = [](auto& list) {
             const std::size_t room = list.size() + list.size() / 32 + 16;
             list.clear();
-            if (list.capacity() < room || list.capacity() > room + room / 8) {
+            if (list.capacity() < room || list.capacity() > room + room / 24) {
                 list.shrink_to_fit();
                 list.reserve(room);
             }
@@ -118,12 +118,12 @@ struct ChunkContacts {
         ownLive.clear(), foreignLive.clear(), walls.clear(), wallHistory.clear();
     }
 
-    /// Lists that are full grow by an eighth, not to twice their size.
+    /// Lists that are full grow by a sixteenth, not to twice their size.
     template <class Value>
     static void push(std::vector<Value>& list, const Value& value)
     {
         if (list.size() == list.capacity()) {
-            list.reserve(list.size() + list.size() / 8 + 16);
+            list.reserve(list.size() + list.size() / 16 + 16);
         }
         list.push_back(value);
     }

@@ -1,6 +1,7 @@
 #include "mesh/clean_copy.h"
 
 #include "core/hash.h"
+#include "mesh/refuse_mesh.h"
 #include "mesh/split_polygon.h"
 
 #include <fmt/format.h>
@@ -8,6 +9,9 @@
 #include <bit>
 
 namespace sandflow {
+
+/// At worst a second: 1,000 spirals of 256 corners, or any number of quads and hexagons.
+constexpr double kMostSplitWork = 1.5e10;
 
 static_assert(std::endian::native == std::endian::little, "clean copies are written as in memory");
 
@@ -35,6 +39,12 @@ bool PlyWriter::addPoint(const Vec3& p)
 
 bool PlyWriter::addFace(std::span<const std::uint32_t> corners)
 {
+    const auto count = static_cast<double>(corners.size());
+    splitWork_ += count > 6.0 ? count * count * count : 0.0;
+    if (splitWork_ > kMostSplitWork) {
+        refuseMesh(file_, "its polygons have too many corners; split them into triangles in a "
+                          "modelling program");
+    }
     corners_.clear();
     for (const std::uint32_t corner : corners) {
         corners_.push_back(points_[corner].cast<double>());

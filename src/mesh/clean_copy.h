@@ -33,10 +33,13 @@ std::uint64_t hashOfFace(const std::array<Vec3f, 3>& corners);
 /// triangles. assimp's own readers of text round some numbers twice.
 class PlyWriter {
 public:
+    /// `file` is the name for messages.
+    explicit PlyWriter(const std::string& file) : file_(file) {}
+
     /// Returns whether the point is finite in single precision; if not it is not added.
     bool addPoint(const Vec3& p);
     /// Every index below pointCount(), 3 to kMaxCorners of them. Returns whether the polygon could
-    /// be split into triangles.
+    /// be split into triangles. Throws InputError where all of them together would take long.
     bool addFace(std::span<const std::uint32_t> corners);
     std::size_t pointCount() const { return points_.size(); }
 
@@ -48,8 +51,10 @@ private:
     // Of the polygon at hand.
     std::vector<Vec3> corners_;
     std::vector<std::array<std::uint32_t, 3>> split_;
+    const std::string& file_;
     std::uint64_t faces_ = 0;  ///< triangles
     std::uint64_t faceSum_ = 0;
+    double splitWork_ = 0.0;   ///< sum of cubes of the polygons' corners
 };
 
 /// Appends the bytes of a number as they stand in memory; the formats here are little-endian.

@@ -111,10 +111,10 @@ GltfBuffers::GltfBuffers(const JsonValue& root, std::string_view binaryChunk,
     for (std::size_t i = 0; i < count; ++i) {
         buffers_.push_back(loadBuffer(gltfItem(root, "buffers", i, file), i, read));
         // A small file may name a large one over and over.
-        constexpr std::size_t kMostBytes = 1'000'000'000;
+        constexpr std::size_t kMostBytes = 250'000'000;
         size_ += buffers_.back().size();
         if (size_ > kMostBytes) {
-            refuseMesh(file, "the buffers of the glTF file have more than 1 GB; reduce the mesh");
+            refuseMesh(file, "the buffers of the glTF file have more than 250 MB; reduce the mesh");
         }
     }
 }

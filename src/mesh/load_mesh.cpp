@@ -16,7 +16,9 @@
 namespace sandflow {
 namespace {
 
-constexpr std::uintmax_t kMaxFileSize = 1'000'000'000;  ///< bytes
+// Loading stays below 1 GB of memory: a triangle takes 200 to 400 bytes on the way.
+constexpr std::uintmax_t kMaxFileSize = 250'000'000;  ///< bytes
+constexpr std::uint64_t kMostFaces = 2'000'000;
 
 std::string lowerExtension(std::string extension)
 {
@@ -109,6 +111,10 @@ LoadedMesh load(std::string_view bytes, const std::string& extension, const std:
     try {
         LoadedMesh loaded;
         const CleanCopy copy = passGate(bytes, extension, name, read);
+        if (copy.faces > kMostFaces) {
+            refuseMesh(name, "it has {} faces, allowed are {}; reduce the mesh", copy.faces,
+                       kMostFaces);
+        }
         loaded.mesh = readWithAssimp(copy, name);
         loaded.report = cleanMesh(loaded.mesh, name);
         loaded.report.repairs.insert(loaded.report.repairs.begin(), copy.repairs.begin(),
@@ -123,7 +129,7 @@ LoadedMesh load(std::string_view bytes, const std::string& extension, const std:
 
 LoadedMesh loadMesh(const std::filesystem::path& path)
 {
-    // Refuse a wrong ending before a gigabyte is read.
+    // Refuse a wrong ending before all of it is read.
     const std::string extension = lowerExtension(path.extension().string());
     constexpr std::array kEndings = {".ply", ".obj", ".stl", ".off", ".gltf", ".glb"};
     const bool known = std::find(kEndings.begin(), kEndings.end(), extension) != kEndings.end();

@@ -205,7 +205,7 @@ private:
 
     const std::string& file_;
     ObjLines lines_;
-    PlyWriter writer_;
+    PlyWriter writer_{file_};
     std::vector<std::int64_t> corners_;
     std::vector<std::size_t> faceEnds_;  ///< into corners_, one per face
     std::vector<std::size_t> faceLines_;

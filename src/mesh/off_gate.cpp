@@ -181,7 +181,7 @@ private:
     std::vector<std::string_view> words_;  ///< of the line at hand, without its comment
     std::int64_t vertexCount_ = 0;
     std::int64_t faceCount_ = 0;
-    PlyWriter writer_;
+    PlyWriter writer_{file_};
     std::vector<std::uint32_t> corners_;
 };
 

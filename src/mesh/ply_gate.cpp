@@ -244,7 +244,7 @@ private:
     const std::string& file_;
     PlyHeader header_;
     PlyBody body_;
-    PlyWriter writer_;
+    PlyWriter writer_{file_};
     std::vector<std::uint32_t> corners_;
 };
 

@@ -13,8 +13,8 @@ struct SurfaceSamples {
     std::vector<Vec3> normals;
 };
 
-/// The most samples a mesh may need; their points and normals take 1 GB, twice that while made.
-inline constexpr std::uint64_t kMostSurfaceSamples = 20'000'000;
+/// The most samples a mesh may need; their points and normals take 0.4 GB, twice that while made.
+inline constexpr std::uint64_t kMostSurfaceSamples = 8'000'000;
 
 /// Covers a mesh with samples so that no point of it is farther than `gap` [m] from a sample whose
 /// normal is less than 60 degrees off: so every face of a thin part has samples of its own. Such

@@ -212,7 +212,7 @@ TEST(SampleSurface, RefusesWhatIsTooMuchBeforeItStarts)
     const TriangleMesh cube = makeBoxMesh(Vec3::Zero(), Vec3::Ones());
     EXPECT_EQ(refusalOf(cube, 1e-4),
               "A mesh of 6 m2 takes about 4.4e+08 particles to cover at 0.0001 m apart, more than "
-              "the 20000000 allowed; make it smaller or the grains larger.");
+              "the 8000000 allowed; make it smaller or the grains larger.");
     EXPECT_EQ(refusalOf(makeBoxMesh(Vec3::Constant(2e6), Vec3::Constant(2e6 + 1.0)), 0.01),
               "A mesh that reaches 2000001 m from the origin cannot be covered with particles 0.01 "
               "m apart; move it closer, to within 1000000 m.");
