@@ -3,6 +3,7 @@
 #include "app/environment.h"
 #include "app/progress.h"
 #include "app/run_summary.h"
+#include "app/seen_through.h"
 #include "core/stage_clock.h"
 #include "io/atomic_file.h"
 #include "io/frame_log.h"
@@ -122,6 +123,7 @@ ExitCode runScene(const RunOptions& options)
                       {frames, estimateSandBox(scene, meshes)}, meshes);
     }
 
+    const std::function<bool(const Vec3&)> isSeen = findSeenThrough(scene, sand->solids());
     FrameLog log(folder.frameLogPath());
     Progress progress(frames, options.quiet);
     RunSummary summary(scene, plan);
@@ -139,7 +141,7 @@ ExitCode runScene(const RunOptions& options)
             }
             if (!options.noFrames) {
                 row.exported = writePovFrame(folder.framePath(f), snapshot,
-                                             {options.allGrains, GrainColour::family});
+                                             {options.allGrains, isSeen, GrainColour::family});
             }
             if (options.keepStates) {
                 writeState(folder.statePath(f), snapshot);

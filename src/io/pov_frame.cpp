@@ -51,7 +51,8 @@ std::string formatPovFrame(const Snapshot& snapshot, const PovFrameOptions& opti
     std::vector<std::vector<std::uint32_t>> members(byFamily ? kColourFamilies : 4);
     std::size_t count = 0;
     for (std::size_t i = 0; i < snapshot.size(); ++i) {
-        if (snapshot.state[i] == GrainState::buried && !options.allGrains) {
+        if (snapshot.state[i] == GrainState::buried && !options.allGrains &&
+            !(options.isSeen && options.isSeen(snapshot.position[i]))) {
             continue;
         }
         const int colour = byFamily ? chooseColourFamily(snapshot.id[i])

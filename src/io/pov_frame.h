@@ -3,6 +3,7 @@
 #include "grains/snapshot.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace sandflow {
@@ -17,6 +18,8 @@ enum class GrainColour {
 
 struct PovFrameOptions {
     bool allGrains = false;  ///< the buried ones too; they cannot be seen
+    /// Buried ones for which this is true are written all the same: they are seen through glass.
+    std::function<bool(const Vec3&)> isSeen;
     GrainColour colourBy = GrainColour::family;
 };
 

@@ -108,6 +108,19 @@ TEST(PovFrame, leavesBuriedGrainsOutUnlessAsked)
     EXPECT_EQ(writePovFrame(folder.file("b.inc"), heap, all), 400u);
     EXPECT_EQ(countOf(slurp(folder.file("b.inc")), "sphere{"), 400u);
     EXPECT_EQ(folder.countEntries(), 2u);
+    // Those behind glass are seen: half of the buried ones.
+    std::vector<double> x;
+    for (std::size_t i = 0; i < heap.position.size(); ++i) {
+        if (heap.state[i] == GrainState::buried) {
+            x.push_back(heap.position[i].x());
+        }
+    }
+    std::sort(x.begin(), x.end());
+    PovFrameOptions pane;
+    pane.isSeen = [&](const Vec3& p) { return p.x() < x[50]; };
+    EXPECT_EQ(writePovFrame(folder.file("c.inc"), heap, pane),
+              300u + static_cast<std::size_t>(
+                         std::lower_bound(x.begin(), x.end(), x[50]) - x.begin()));
 }
 
 TEST(PovFrame, coloursByState)
