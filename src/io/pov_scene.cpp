@@ -108,7 +108,7 @@ void writePovScene(const std::string& runFolder, const std::string& povrayFolder
     for (std::size_t index = 0; index < scene.solids.size(); ++index) {
         const std::string path = (folder / povMeshFileName(index)).string();
         if (isDrawnMesh(scene.solids[index]) && !std::filesystem::exists(path)) {
-            writeFileAtomically(path, formatPovMesh(povMeshName(index), *findMesh(meshes, index),
+            writeFileAtomically(path, formatPovMesh(povMeshName(index), *meshOf(meshes, index),
                                                     scene.grains.radius));
         }
     }

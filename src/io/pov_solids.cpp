@@ -115,7 +115,7 @@ std::string formatShape(const Scene& scene, std::size_t index, const Vec3& camer
                                povVector(centre + half), povNumber(solid.radius / unit));
         }
         case SolidShape::mesh:
-            if (findMesh(meshes, index) == nullptr) {
+            if (meshOf(meshes, index) == nullptr) {
                 throw InputError(fmt::format(
                     "solid \"{}\": its mesh cannot be drawn: its triangles were not loaded",
                     solid.name));

@@ -15,7 +15,7 @@ struct SceneMesh {
 };
 
 /// The mesh of a solid; null if it was not handed over.
-inline const TriangleMesh* findMesh(std::span<const SceneMesh> meshes, std::size_t solid)
+inline const TriangleMesh* meshOf(std::span<const SceneMesh> meshes, std::size_t solid)
 {
     const auto found = std::ranges::find(meshes, solid, &SceneMesh::solid);
     return found == meshes.end() ? nullptr : &found->mesh;

@@ -148,7 +148,7 @@ void SolidSet::freeStretches(double time, double x, double y, double edge,
         return;
     }
     const double most = kRaggedShare * edge;
-    for (int line = 0; line < 9; ++line) {
+    for (const int line : {0, 1, 2, 3, 5, 6, 7, 8}) {
         const double dx = (line % 3 - 1) * edge / 3.0, dy = (line / 3 - 1) * edge / 3.0;
         freeOnLine(time, x + dx, y + dy, beside);
         for (std::size_t k = 0; k < out.size(); ++k) {
