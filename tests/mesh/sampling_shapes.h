@@ -10,42 +10,6 @@
 
 namespace sandflow {
 
-/// A sphere of 20 * 4^level triangles, all of about the same size.
-inline TriangleMesh makeIcosphere(double radius, int level)
-{
-    const double g = 0.5 * (1.0 + std::sqrt(5.0));
-    TriangleMesh mesh;
-    mesh.points = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
-                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-    mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
-                      {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                      {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
-                      {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
-    for (int round = 0; round < level; ++round) {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-        const auto middleOf = [&](std::uint32_t a, std::uint32_t b) {
-            const auto [at, isNew] =
-                middles.insert({std::minmax(a, b), static_cast<std::uint32_t>(mesh.points.size())});
-            if (isNew) {
-                mesh.points.push_back(0.5 * (mesh.points[a] + mesh.points[b]));
-            }
-            return at->second;
-        };
-        std::vector<std::array<std::uint32_t, 3>> finer;
-        for (const auto& [a, b, c] : mesh.triangles) {
-            const std::uint32_t ab = middleOf(a, b);
-            const std::uint32_t bc = middleOf(b, c);
-            const std::uint32_t ca = middleOf(c, a);
-            finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-        }
-        mesh.triangles = std::move(finer);
-    }
-    for (Vec3& point : mesh.points) {
-        point *= radius / point.norm();
-    }
-    return mesh;
-}
-
 /// A profile (distance from the z axis, height) turned about that axis, in `sectors` steps; outward
 /// if the profile runs with the solid on its left.
 inline TriangleMesh makeRevolved(const std::vector<Vec2>& profile, int sectors)
@@ -150,11 +114,11 @@ inline std::vector<NamedMesh> makeSampledMeshes(double gap)
     return {{"box", makeBoxMesh(Vec3(0.1, -0.2, 0.3),
                                 Vec3(0.1, -0.2, 0.3) + gap * Vec3(40.0, 30.0, 20.0))},
             {"plate", makeBoxMesh(Vec3::Zero(), gap * Vec3(50.0, 40.0, 0.3))},
-            {"sphere", makeIcosphere(15.0 * gap, 4)},
+            {"sphere", makeIcosphereMesh(Vec3::Zero(), 15.0 * gap, 4)},
             {"spike", makeSpike(4.0 * gap, 60.0 * gap)},
             {"sheet", makeSheet(24, 18, 1.7 * gap)},
             {"needles", makeNeedles(gap)},
-            {"small triangles", makeIcosphere(5.0 * gap, 6)}};
+            {"small triangles", makeIcosphereMesh(Vec3::Zero(), 5.0 * gap, 6)}};
 }
 
 }  // namespace sandflow

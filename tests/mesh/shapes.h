@@ -27,38 +27,39 @@ inline TriangleMesh makeBoxMesh(const Vec3& min, const Vec3& max)
     return mesh;
 }
 
-/// Inscribed in the sphere: all corners are on it. 20 * 4^level triangles.
+/// Inscribed in the sphere: all corners are on it. 20 * 4^level triangles of about the same size.
 inline TriangleMesh makeIcosphereMesh(const Vec3& centre, double radius, int level)
 {
     const double g = 0.5 * (1.0 + std::sqrt(5.0));
     TriangleMesh mesh;
-    mesh.points = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-    mesh.triangles = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11},
-                      {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                      {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9},
-                      {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
-    for (; level > 0; --level) {
+    mesh.points = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+    mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                      {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                      {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                      {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+    for (int round = 0; round < level; ++round) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
         const auto middleOf = [&](std::uint32_t a, std::uint32_t b) {
-            const auto next = static_cast<std::uint32_t>(mesh.points.size());
-            const auto [found, isNew] = middles.try_emplace(std::minmax(a, b), next);
+            const auto [at, isNew] =
+                middles.insert({std::minmax(a, b), static_cast<std::uint32_t>(mesh.points.size())});
             if (isNew) {
-                mesh.points.push_back(mesh.points[a].normalized() + mesh.points[b].normalized());
+                mesh.points.push_back(0.5 * (mesh.points[a] + mesh.points[b]));
             }
-            return found->second;
+            return at->second;
         };
         std::vector<std::array<std::uint32_t, 3>> finer;
         for (const auto& [a, b, c] : mesh.triangles) {
             const std::uint32_t ab = middleOf(a, b);
             const std::uint32_t bc = middleOf(b, c);
             const std::uint32_t ca = middleOf(c, a);
-            finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+            finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
         }
         mesh.triangles = std::move(finer);
     }
     for (Vec3& point : mesh.points) {
-        point = centre + radius * point.normalized();
+        point *= radius / point.norm();
+        point += centre;
     }
     return mesh;
 }

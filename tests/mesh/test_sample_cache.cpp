@@ -73,7 +73,7 @@ TEST_F(SampleCache, GivesTheVerySameBitsFirstAndLater)
 
 TEST_F(SampleCache, HoldsMoreThanABufferful)
 {
-    const TriangleMesh large = makeIcosphere(0.2, 3);
+    const TriangleMesh large = makeIcosphereMesh(Vec3::Zero(), 0.2, 3);
     const SurfaceSamples first = sampleSurfaceCached(large, kGap, 1, folder);
     ASSERT_GT(first.points.size() * 48, 10u << 16);
     EXPECT_TRUE(areSame(sampleSurfaceCached(large, kGap, 1, folder), first));

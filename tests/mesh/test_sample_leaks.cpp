@@ -47,7 +47,7 @@ TEST(SampleLeaks, SphereIsTight)
 {
     const double radius = 10.0;
     for (const int level : {1, 4}) {
-        const TriangleMesh mesh = makeIcosphere(radius, level);
+        const TriangleMesh mesh = makeIcosphereMesh(Vec3::Zero(), radius, level);
         // The ball within the faces: inside for certain.
         double within = radius;
         for (const auto& [a, b, c] : mesh.triangles) {

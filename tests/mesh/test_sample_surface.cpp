@@ -97,7 +97,7 @@ TEST(SampleSurface, SamplesKeepApart)
 TEST(SampleSurface, CountFollowsTheArea)
 {
     for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
-        const TriangleMesh sphere = makeIcosphere(25.0 * kGap, 4);
+        const TriangleMesh sphere = makeIcosphereMesh(Vec3::Zero(), 25.0 * kGap, 4);
         const TriangleMesh box = makeBoxMesh(Vec3::Zero(), kGap * Vec3(60.0, 50.0, 40.0));
         const double onSphere = densityOf(sampleSurface(sphere, kGap, seed), sphere);
         const double onBox = densityOf(sampleSurface(box, kGap, seed), box);
@@ -129,7 +129,8 @@ TEST(SampleSurface, BothFacesOfAThinPlateGetSamples)
 TEST(SampleSurface, SamplesLieOnTheSurfaceWithItsNormals)
 {
     const double radius = 15.0 * kGap;
-    const SurfaceSamples samples = sampleSurface(makeIcosphere(radius, 4), kGap, 1);
+    const TriangleMesh mesh = makeIcosphereMesh(Vec3::Zero(), radius, 4);
+    const SurfaceSamples samples = sampleSurface(mesh, kGap, 1);
     ASSERT_EQ(samples.points.size(), samples.normals.size());
     for (std::size_t s = 0; s < samples.points.size(); ++s) {
         const Vec3 outward = samples.points[s].normalized();
