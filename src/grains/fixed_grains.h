@@ -4,6 +4,7 @@
 #include "grains/sorted_cells.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace sandflow {
@@ -61,6 +62,16 @@ public:
         info_.swap(sortedInfos);
         sorted_ = true;
         ++version_;
+    }
+
+    /// Grain which[n] lies at place[n] from now on.
+    void moveTo(std::span<const std::uint32_t> which, std::span<const Vec3> place)
+    {
+        for (std::size_t n = 0; n < which.size(); ++n) {
+            GrainRecord<Real>& g = record_[which[n]];
+            g.x = place[n].x(), g.y = place[n].y(), g.z = place[n].z();
+        }
+        sorted_ = sorted_ && which.empty();
     }
 
     /// Another number whenever sort() changed anything.

@@ -137,6 +137,12 @@ void visitFields(T& flow, Visitor& visit)
     visit(Key{"bury_clearance", "grain diameters",
               "Kept between the lowest moving grain and the buried ones."},
           flow.buryClearance, limits::kDepth);
+    visit(Key{"creep_decay", "grain diameters",
+              "The bed under flowing sand creeps along with it, slower by a factor of e over this "
+              "depth; 0: it stays where it is."},
+          flow.creepDecay, limits::kDepth);
+    visit(Key{"creep_depth", "grain diameters", "Below the top of the bed: there creep ends."},
+          flow.creepDepth, limits::kDepth);
 }
 
 template <SpecOf<SkipSpec> T, class Visitor>

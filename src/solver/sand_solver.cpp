@@ -57,6 +57,15 @@ TransferParams transferParams(const Scene& scene)
     return params;
 }
 
+CreepParams creepParams(const Scene& scene)
+{
+    CreepParams params;
+    params.diameter = scene.diameter();
+    params.decay = scene.surfaceFlow.creepDecay * scene.diameter();
+    params.depth = scene.surfaceFlow.creepDepth * scene.diameter();
+    return params;
+}
+
 template <class Real>
 Vec3 positionOf(const GrainRecord<Real>& g)
 {
@@ -87,7 +96,8 @@ SandSolver<Real>::SandSolver(const Scene& scene)
           }),
       bcre_(bcreParams(scene)),
       rest_(makeRestRules(scene.surfaceFlow)),
-      transfer_(transferParams(scene))
+      transfer_(transferParams(scene)),
+      creep_(creepParams(scene))
 {
     for (std::size_t e = 0; e < scene.emitters.size(); ++e) {
         emitters_.push_back(makeEmitter(scene, e));
@@ -166,6 +176,7 @@ void SandSolver<Real>::separateLayers(double interval, FrameReport& report)
         transfer_.plan(columns_, dem_);
         dem_.recordContacts();
         report.transfer += transfer_.apply(columns_, dem_, buried_);
+        creep_.carry(columns_, interval, dem_);
     }
     rebuildLists(report);
     {

@@ -7,6 +7,7 @@
 #include "grains/buried_grains.h"
 #include "solver/overlap_guard.h"
 #include "solver/simulation.h"
+#include "transfer/bed_creep.h"
 #include "transfer/matter_transfer.h"
 
 #include <memory>
@@ -55,6 +56,7 @@ private:
     BcreParams bcre_;
     RestRules rest_;
     MatterTransfer<Real> transfer_;
+    BedCreep<Real> creep_;
     std::vector<AccumulatedGrain> accumulated_;
 
     std::vector<std::unique_ptr<Emitter>> emitters_;

@@ -16,7 +16,7 @@ struct RestRules {
     double wakeForceShare = 0.1;     ///< woken when the force on it changed by more than this share
     double wakeWeights = 0.5;        ///< ... plus this many of its own weights
     double impactShare = 3.0;        ///< an interface grain is struck loose by a single contact of
-    double impactWeights = 50.0;     ///< this x the largest at rest + this many of its weights
+    double impactWeights = 500.0;    ///< this x the largest at rest + this many of its weights
 };
 
 RestRules makeRestRules(const SurfaceFlowSpec& spec);

@@ -1,0 +1,113 @@
+#include "transfer/part_overlaps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sandflow {
+namespace {
+
+constexpr int kRounds = 12;
+constexpr double kRelaxation = 1.3;      // of the mean correction of a grain's overlapping pairs
+constexpr double kAllowed = 0.01;        // of the distance of touching grains: sand at rest has that
+constexpr double kSearchMargin = 0.15;   // of it: neighbours that may come to touch in these rounds
+constexpr std::uint32_t kObstacle = 0x80000000u;
+constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+}  // namespace
+
+template <class Real>
+std::size_t OverlapParter<Real>::shiftAndPart(
+    const std::function<Vec3(const GrainRecord<Real>&)>& shiftOf, double least, Dem<Real>& dem)
+{
+    auto& fixed = dem.frozen();
+    fixed.sort();
+    moved_.clear();
+    place_.clear();
+    movedAt_.assign(fixed.size(), kNone);
+    for (std::size_t k = 0; k < fixed.size(); ++k) {
+        const GrainRecord<Real>& g = fixed.record(k);
+        const Vec3 shift = shiftOf(g);
+        if (shift.squaredNorm() > least * least) {
+            movedAt_[k] = static_cast<std::uint32_t>(moved_.size());
+            moved_.push_back(static_cast<std::uint32_t>(k));
+            place_.push_back(Vec3(g.x, g.y, g.z) + shift);
+        }
+    }
+    if (moved_.empty()) {
+        return 0;
+    }
+    listNeighbours(dem);
+    part();
+    fixed.moveTo(moved_, place_);
+    return moved_.size();
+}
+
+/// From the cells of the places before the shift, which is short.
+template <class Real>
+void OverlapParter<Real>::listNeighbours(const Dem<Real>& dem)
+{
+    neighbour_.clear();
+    end_.clear();
+    obstacles_.clear();
+    for (std::size_t m = 0; m < moved_.size(); ++m) {
+        const GrainRecord<Real>& g = dem.frozen().record(moved_[m]);
+        const Vec3 before(g.x, g.y, g.z);
+        const auto look = [&](const SortedCells& cells, const auto& records, bool areGrains) {
+            cells.visitNear(cells.cellOf(before), 1, [&](const SortedCells::Cell& cell) {
+                for (std::uint32_t e = cell.begin; e < cell.end; ++e) {
+                    const GrainRecord<Real>& other = records[e];
+                    const Vec3 there(other.x, other.y, other.z);
+                    const double reach = static_cast<double>(g.radius + other.radius);
+                    const double sight = reach * (1.0 + kSearchMargin);
+                    if ((there - before).squaredNorm() > sight * sight || other.id == g.id) {
+                        continue;
+                    }
+                    if (areGrains && movedAt_[e] != kNone) {
+                        neighbour_.push_back({movedAt_[e], reach});
+                    } else {
+                        neighbour_.push_back(
+                            {kObstacle + static_cast<std::uint32_t>(obstacles_.size()), reach});
+                        obstacles_.push_back(there);
+                    }
+                }
+            });
+        };
+        look(dem.frozen().cells(), dem.frozen().records(), true);
+        look(dem.boundary().cells(), dem.boundary().records(), false);
+        end_.push_back(static_cast<std::uint32_t>(neighbour_.size()));
+    }
+}
+
+/// Jacobi: every grain looks at the places of the last round, so the order does not matter.
+template <class Real>
+void OverlapParter<Real>::part()
+{
+    nextPlace_.resize(place_.size());
+    const auto count = static_cast<std::int64_t>(place_.size());
+    for (int round = 0; round < kRounds; ++round) {
+#pragma omp parallel for schedule(static)
+        for (std::int64_t m = 0; m < count; ++m) {
+            Vec3 push = Vec3::Zero();
+            int pairs = 0;
+            for (std::uint32_t n = m == 0 ? 0 : end_[m - 1]; n < end_[m]; ++n) {
+                const Neighbour& other = neighbour_[n];
+                const bool isObstacle = other.grain >= kObstacle;
+                const Vec3 apart = place_[m] - (isObstacle ? obstacles_[other.grain - kObstacle]
+                                                           : place_[other.grain]);
+                const double distance = apart.norm();
+                const double overlap = other.reach * (1.0 - kAllowed) - distance;
+                if (overlap > 0.0 && distance > 0.0) {
+                    push += (isObstacle ? 1.0 : 0.5) * overlap / distance * apart;
+                    ++pairs;
+                }
+            }
+            nextPlace_[m] = pairs == 0 ? place_[m] : place_[m] + kRelaxation / pairs * push;
+        }
+        place_.swap(nextPlace_);
+    }
+}
+
+template class OverlapParter<float>;
+template class OverlapParter<double>;
+
+}  // namespace sandflow

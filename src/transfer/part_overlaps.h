@@ -1,0 +1,37 @@
+#pragma once
+
+#include "dem/dem.h"
+
+#include <functional>
+#include <vector>
+
+namespace sandflow {
+
+/// Moves fixed grains without pressing them into each other: a shift that differs from grain to
+/// grain, then pairs that overlap are parted, a little at a time, as grains that are sheared make
+/// way for each other (position based, no forces: the bed is quasi-static).
+template <class Real>
+class OverlapParter {
+public:
+    /// Shifts every fixed grain by shiftOf(record) [m] and parts those that moved by more than
+    /// `least` from each other and from what did not move. Returns how many moved.
+    std::size_t shiftAndPart(const std::function<Vec3(const GrainRecord<Real>&)>& shiftOf,
+                             double least, Dem<Real>& dem);
+
+private:
+    struct Neighbour {
+        std::uint32_t grain;  ///< index of a moved grain, or kObstacle + index into obstacles_
+        double reach;         ///< m, distance at which they just touch
+    };
+    void listNeighbours(const Dem<Real>& dem);
+    void part();
+
+    std::vector<Vec3> place_, nextPlace_;
+    std::vector<std::uint32_t> moved_;     ///< fixed grains that moved
+    std::vector<std::uint32_t> movedAt_;   ///< by fixed grain: index into moved_, or none
+    std::vector<Vec3> obstacles_;
+    std::vector<Neighbour> neighbour_;
+    std::vector<std::uint32_t> end_;       ///< of each moved grain's neighbours
+};
+
+}  // namespace sandflow
