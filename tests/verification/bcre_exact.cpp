@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-/// Exact solutions of the BCRE equations (Bouchaud, Cates, Ravi Prakash & Edwards 1994) and of their
-/// saturated form (Boutreux, Raphael & de Gennes 1998): strips along x, grains run to -x.
+/// Exact solutions of the BCRE equations (Bouchaud, Cates, Ravi Prakash & Edwards 1994) and of
+/// their saturated form (Boutreux, Raphael & de Gennes 1998): strips along x, grains run to -x.
 ///     dh/dt = -Gamma,  dR/dt = v dR/dx + Gamma,  h~ = h - S_n x
 ///     BCRE Gamma = gamma R (S - S_n);  saturated Gamma = v_uh (S - S_n)
 namespace sandflow::verification {
@@ -19,8 +19,8 @@ constexpr double kBase = 0.1;         ///< m of sand below x = 0
 // --- 1. Uniform layer on a uniform slope. ---
 
 /// R [m] in the middle of a long slope, out of reach of its ends.
-double evolveUniform(const BcreParams& params, double excess, double depth, double time, double cell,
-                     double dt)
+double evolveUniform(const BcreParams& params, double excess, double depth, double time,
+                     double cell, double dt)
 {
     const double length = 3.0;
     HeightBench bench = makeStrip(
@@ -34,7 +34,8 @@ double evolveUniform(const BcreParams& params, double excess, double depth, doub
     return columns.R[testing::at(columns, static_cast<int>(columns.spanCount() / 2))];
 }
 
-/// R of the law between the two, R' = v_uh excess R / (R + xi), from R - R0 + xi ln(R / R0) = Gamma t.
+/// R of the law between the two, R' = v_uh excess R / (R + xi), from
+/// R - R0 + xi ln(R / R0) = v_uh excess t = amount.
 double solveInterpolated(double depth, double saturation, double amount)
 {
     double low = depth, high = depth + amount;
@@ -209,8 +210,9 @@ Collapse runCollapse(int count, bool open, double dt, double time)
             / (count * Collapse::kExcess * Collapse::kLength);
     }
     const int last = first + count - 1;
-    result.meanSlope = (columns.h[testing::at(columns, last)] - columns.h[testing::at(columns, first)])
-                       / ((count - 1) * columns.cellSize());
+    const double rise =
+        columns.h[testing::at(columns, last)] - columns.h[testing::at(columns, first)];
+    result.meanSlope = rise / ((count - 1) * columns.cellSize());
     result.lost = bench.lostShare();
     return result;
 }
@@ -251,8 +253,8 @@ std::vector<Verdict> letPilesCollapse(const Settings&)
                                 runCollapse(1600, open, dt, 1.2 * arrival).footFlow,
                                 Gate::relative, 0.02, scene.footFlow});
         }
-        verdicts.push_back({foot + ": sand lost in an update, share", kLeastLoss, finest.lost, Gate::atMost, 0.0,
-                            scene.lost});
+        verdicts.push_back({foot + ": sand lost in an update, share", kLeastLoss, finest.lost,
+                            Gate::atMost, 0.0, scene.lost});
         if (open) {  // a straight line, which the scheme has exactly
             verdicts.push_back({foot + ", bed at rest: error", 1e-5, finest.bedError, Gate::atMost,
                                 0.0, scene.bedError});
@@ -355,8 +357,8 @@ void judgeFeed(const std::string& name, const BcreParams& params, double time,
                         finest.flow, Gate::relative, 2.0 * kTolerance, scene.flow});
     verdicts.push_back({name + ": slope in the middle", exactSlope(middle), finest.slope,
                         Gate::relative, kTolerance, scene.slope});
-    verdicts.push_back({name + ": sand lost in an update, share", kLeastLoss, finest.lost, Gate::atMost, 0.0,
-                        scene.lost});
+    verdicts.push_back({name + ": sand lost in an update, share", kLeastLoss, finest.lost,
+                        Gate::atMost, 0.0, scene.lost});
     const auto judgeErrors = [&](const char* what, const std::vector<double>& errors) {
         // Nothing is left to converge where the scheme has the exact state. (The flow is slowed on
         // slopes near 1e-3, on these by 1.4e-6.)
@@ -380,7 +382,8 @@ std::vector<Verdict> fillSilo(const Settings&)
     // Waves of slope that run up at v_uh and come back with the flow die out the more slowly the
     // finer the grid: by e in 100 s on columns of 10 mm, in 50 s on columns of 20 mm.
     judgeFeed("saturated", makeSaturatedParams(Feed::kUphill, kNeutral, Feed::kSpeed), 1500.0,
-              {25, 50, 100}, false, flow, [](double) { return kNeutral - Feed::kRate / (Feed::kLength * Feed::kUphill); },
+              {25, 50, 100}, false, flow,
+              [](double) { return kNeutral - Feed::kRate / (Feed::kLength * Feed::kUphill); },
               verdicts);
     return verdicts;
 }
@@ -403,8 +406,8 @@ const Registration kWaves({"Bcre2", "BRG 1998, exact: general solution while R >
                            sendWaves});
 const Registration kPiles({"Bcre3", "BRG 1998, exact: pile too steep with open or closed foot",
                            false, letPilesCollapse});
-const Registration kSilo({"Bcre4", "Aradian, Raphael & de Gennes 2002, exact: filling a silo", false,
-                          fillSilo});
+const Registration kSilo({"Bcre4", "Aradian, Raphael & de Gennes 2002, exact: filling a silo",
+                          false, fillSilo});
 const Registration kOpenCell({"Bcre5", "BCRE 1994 and BRG 1998, exact: open cell at steady state",
                               false, feedOpenCell});
 

@@ -94,7 +94,8 @@ struct Curve {
     double judgedFrom;  ///< degrees, below which single points are only reported
 };
 
-/// Each point, and the whole: the sum of the distances over that of the values, as Kratos judges it.
+/// Each point, and the whole: the sum of the distances over that of the values, as Kratos judges
+/// it.
 void judgeCurve(const Material& material, const Curve& curve, std::vector<Verdict>& verdicts)
 {
     double distance = 0.0, shippedDistance = 0.0, sum = 0.0;
@@ -365,8 +366,9 @@ const Registration kConstantSpeed({"ChungOoi4",
 const Registration kConstantNormalSpeed(
     {"ChungOoi5", "Chung & Ooi 2011, test 5: oblique impact at constant normal speed", false,
      hitAtConstantNormalSpeed});
-const Registration kSpinOnPlane({"ChungOoi6", "Chung & Ooi 2011, test 6: spinning sphere on a plane",
-                                 false, spinOnPlane});
+const Registration kSpinOnPlane({"ChungOoi6",
+                                 "Chung & Ooi 2011, test 6: spinning sphere on a plane", false,
+                                 spinOnPlane});
 const Registration kRollOnEachOther({"ChungOoi7",
                                      "Chung & Ooi 2011, test 7: equal spheres with opposite spins",
                                      false, rollOnEachOther});

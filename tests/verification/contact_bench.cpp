@@ -24,8 +24,10 @@ constexpr int kMostSteps = 50'000'000;  ///< of one collision: something is wron
 DemSetup makeSetup(const ContactCoefficients& law, const std::vector<Ball>& balls,
                    const std::vector<Primitive>& walls, const Vec3& gravity)
 {
-    const auto [smallest, largest] = std::minmax_element(
-        balls.begin(), balls.end(), [](const Ball& a, const Ball& b) { return a.radius < b.radius; });
+    const auto [smallest, largest] =
+        std::minmax_element(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) {
+            return a.radius < b.radius;
+        });
     DemSetup setup;
     setup.law = law;
     setup.meanRadius = smallest->radius;

@@ -124,8 +124,8 @@ void judgeTable(const std::string& name, const Table& table, const std::vector<i
                         scene.apex});
     verdicts.push_back({name + "unrest of the bed [m/s]", 1e-4, finest.unrest, Gate::atMost, 0.0,
                         scene.unrest});
-    verdicts.push_back({name + "sand lost in an update, share", kLeastLoss, finest.lost, Gate::atMost, 0.0,
-                        scene.lost});
+    verdicts.push_back({name + "sand lost in an update, share", kLeastLoss, finest.lost,
+                        Gate::atMost, 0.0, scene.lost});
     verdicts.push_back({name + "bed: mean error over its height", kBedTolerance, finest.bed,
                         Gate::atMost, 0.0, scene.bed});
     // Where the edge runs along the columns of a strip the upwind slope is exact.
@@ -157,9 +157,9 @@ std::vector<Verdict> pourOnInterval(const Settings&)
 std::vector<Verdict> pourOnDisc(const Settings&)
 {
     // The error of the bed, of first order in dx, has a kink along the grid's axes. There the slope
-    // across the axis is itself only of order dx, so that the flow in the column on the axis spreads
-    // twice too fast whatever dx is, and what is missing there is carried outward between the
-    // streamlines: column by column the error goes as dx log(1/dx). Over rings it goes as dx.
+    // across the axis is itself only of order dx, so that the flow in the column on the axis
+    // spreads twice too fast whatever dx is, and what is missing there is carried outward between
+    // the streamlines: column by column the error goes as dx log(1/dx). Over rings it goes as dx.
     Table table;
     table.inside = [](double x, double y) { return 1.0 - std::hypot(x, y); };
     table.source = [](double x, double y) { return std::hypot(x, y) < 1.0 ? kSource : 0.0; };

@@ -37,8 +37,9 @@ std::string describeGate(const Verdict& v)
 
 std::string describeError(const Verdict& v)
 {
-    return v.gate == Gate::absolute || v.expected == 0.0 ? fmt::format("{:+.3g}", v.error())
-                                                         : fmt::format("{:+.3g} %", 100.0 * v.error());
+    const bool isShare = v.gate != Gate::absolute && v.expected != 0.0;
+    return isShare ? fmt::format("{:+.3g} %", 100.0 * v.error())
+                   : fmt::format("{:+.3g}", v.error());
 }
 
 std::string describeShipped(const Verdict& v)
@@ -91,7 +92,8 @@ int runCases(const Options& options)
     }
     int failures = 0;
     for (const Case& c : allCases()) {
-        const bool isWanted = options.only.empty() ? c.bulk == options.bulk : c.name == options.only;
+        const bool isWanted =
+            options.only.empty() ? c.bulk == options.bulk : c.name == options.only;
         if (isWanted) {
             failures += runCase(c, options.settings, csv);
             std::fflush(stdout);
@@ -117,7 +119,8 @@ int main(int argc, char** argv)
     bool list = false;
     app.add_flag("--bulk", options.bulk, "The cases that take minutes, not the fast ones");
     app.add_option("--only", options.only, "One case");
-    app.add_option("--seeds", options.settings.seeds, "Pours per bulk case")->check(CLI::Range(1, 20));
+    app.add_option("--seeds", options.settings.seeds, "Pours per bulk case")
+        ->check(CLI::Range(1, 20));
     app.add_option("--threads", options.threads, "Threads per case")->check(CLI::Range(1, 1024));
     app.add_option("--csv", options.csv, "Write the table there as well");
     app.add_flag("--list", list, "Names of the fast cases (with --bulk: of the others)");

@@ -24,8 +24,8 @@ std::vector<Verdict> slipThenRoll(const Settings&)
         ball.velocity.x() = kSpeed;
         const double rollsAt = 2.0 * kSpeed / (7.0 * friction * kGravity);
         const std::string name = fmt::format("mu {:g}: ", friction);
-        judge({{name + "speed halfway to rolling [m/s]", kSpeed - 0.5 * friction * kGravity * rollsAt,
-                Gate::relative, kSpeedTolerance},
+        judge({{name + "speed halfway to rolling [m/s]",
+                kSpeed - 0.5 * friction * kGravity * rollsAt, Gate::relative, kSpeedTolerance},
                {name + "R w halfway to rolling [m/s]", 1.25 * friction * kGravity * rollsAt,
                 Gate::relative, kTimeTolerance},
                {name + "time when it rolls [s]", rollsAt, Gate::relative, kTimeTolerance},
@@ -138,8 +138,9 @@ std::vector<Verdict> hitGlass(const Settings&)
 
 const Registration kSlip({"Mfix4", "MFIX-DEM case 4, Garg et al. 2012: slip turns into rolling",
                           false, slipThenRoll});
-const Registration kGlass({"Mfix5", "MFIX-DEM case 5, Garg et al. 2012: oblique impact, Kharaz 2001",
-                           false, hitGlass});
+const Registration kGlass({"Mfix5",
+                           "MFIX-DEM case 5, Garg et al. 2012: oblique impact, Kharaz 2001", false,
+                           hitGlass});
 
 }  // namespace
 }  // namespace sandflow::verification

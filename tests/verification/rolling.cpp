@@ -128,7 +128,8 @@ std::vector<Verdict> rollDownIncline(const Settings&)
     // Below tan = mu_r it only leans on its rolling spring: at most as far as that is elastic,
     // mu_r m g / (2.25 mu_r^2 k), and twice that in swinging.
     const ContactCoefficients law = rollingLaw(0.5, kRolling);
-    const double elastic = makeBall(kRadius, kDensity).mass * kGravity / (2.25 * kRolling * kStiffness);
+    const double elastic =
+        makeBall(kRadius, kDensity).mass * kGravity / (2.25 * kRolling * kStiffness);
     for (const double tangent : {0.05, 0.08}) {
         judge({{fmt::format("mu_r 0.1, tan {:g}: way in 0.2 s [m]", tangent), 2.0 * elastic,
                 Gate::atMost}},
@@ -142,8 +143,9 @@ std::vector<Verdict> rollDownIncline(const Settings&)
 
 const Registration kSpinDown({"SpinDown", "closed form, LAMMPS unittest/granular: rolling friction",
                               false, spinDown});
-const Registration kIncline({"Incline", "closed forms, LAMMPS unittest/granular: ball on an incline",
-                             false, rollDownIncline});
+const Registration kIncline({"Incline",
+                             "closed forms, LAMMPS unittest/granular: ball on an incline", false,
+                             rollDownIncline});
 
 }  // namespace
 }  // namespace sandflow::verification
