@@ -108,7 +108,7 @@ double energyOf(const ContactBench& bench)
 
 std::vector<Verdict> pressTwoSpheres(const Settings&)
 {
-    constexpr double kFineStep = 5e-9;
+    constexpr double kFineStep = 1e-8;
     std::vector<Verdict> verdicts;
     const ContactCoefficients elastic = linearLaw(kStiffness, 1.0, false);
 
