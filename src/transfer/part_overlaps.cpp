@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace sandflow {
 namespace {
 
-constexpr int kRounds = 12;
+constexpr int kRounds = 16;
 constexpr double kRelaxation = 1.3;      // of the mean correction of a grain's overlapping pairs
 constexpr double kAllowed = 0.01;        // of the distance of touching grains: sand at rest has that
 constexpr double kSearchMargin = 0.15;   // of it: neighbours that may come to touch in these rounds
+constexpr double kTouching = 0.02;       // of it: closer than that counts as touching
+constexpr int kHolding = 4;              // partners that hold a sphere with friction
 constexpr std::uint32_t kObstacle = 0x80000000u;
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
@@ -23,6 +26,7 @@ std::size_t OverlapParter<Real>::shiftAndPart(
     fixed.sort();
     moved_.clear();
     place_.clear();
+    shift_.clear();
     movedAt_.assign(fixed.size(), kNone);
     for (std::size_t k = 0; k < fixed.size(); ++k) {
         const GrainRecord<Real>& g = fixed.record(k);
@@ -31,12 +35,14 @@ std::size_t OverlapParter<Real>::shiftAndPart(
             movedAt_[k] = static_cast<std::uint32_t>(moved_.size());
             moved_.push_back(static_cast<std::uint32_t>(k));
             place_.push_back(Vec3(g.x, g.y, g.z) + shift);
+            shift_.push_back(shift.norm());
         }
     }
     if (moved_.empty()) {
         return 0;
     }
     listNeighbours(dem);
+    settle(dem.setup().gravity.normalized());
     part();
     fixed.moveTo(moved_, place_);
     return moved_.size();
@@ -76,6 +82,32 @@ void OverlapParter<Real>::listNeighbours(const Dem<Real>& dem)
         look(dem.boundary().cells(), dem.boundary().records(), false);
         end_.push_back(static_cast<std::uint32_t>(neighbour_.size()));
     }
+}
+
+/// Sand that is sheared opens up, and its weight closes it again: a grain that touches too few
+/// others to be held by them sinks, in proportion to the way that it went.
+template <class Real>
+void OverlapParter<Real>::settle(const Vec3& down)
+{
+    static const double share = getenv("EXP_SETTLE") ? atof(getenv("EXP_SETTLE")) : 0.5;
+    const auto count = static_cast<std::int64_t>(place_.size());
+    nextPlace_.resize(place_.size());
+#pragma omp parallel for schedule(static)
+    for (std::int64_t m = 0; m < count; ++m) {
+        int touching = 0;
+        for (std::uint32_t n = m == 0 ? 0 : end_[m - 1]; n < end_[m]; ++n) {
+            const Neighbour& other = neighbour_[n];
+            const Vec3& there = other.grain >= kObstacle ? obstacles_[other.grain - kObstacle]
+                                                         : place_[other.grain];
+            const double sight = other.reach * (1.0 + kTouching);
+            touching += (place_[m] - there).squaredNorm() < sight * sight ? 1 : 0;
+        }
+        nextPlace_[m] = place_[m];
+        if (touching < kHolding) {
+            nextPlace_[m] += share * shift_[m] * down;
+        }
+    }
+    place_.swap(nextPlace_);
 }
 
 /// Jacobi: every grain looks at the places of the last round, so the order does not matter.

@@ -24,9 +24,11 @@ private:
         double reach;         ///< m, distance at which they just touch
     };
     void listNeighbours(const Dem<Real>& dem);
+    void settle(const Vec3& down);
     void part();
 
     std::vector<Vec3> place_, nextPlace_;
+    std::vector<double> shift_;            ///< m, how far each moved
     std::vector<std::uint32_t> moved_;     ///< fixed grains that moved
     std::vector<std::uint32_t> movedAt_;   ///< by fixed grain: index into moved_, or none
     std::vector<Vec3> obstacles_;

@@ -1,6 +1,7 @@
 #include "transfer/rest_judge.h"
 
 #include "dem/contact_law.h"
+#include <cstdlib>
 
 
 namespace sandflow {
@@ -72,6 +73,8 @@ RestRules makeRestRules(const SurfaceFlowSpec& spec)
     rules.freezeDistance = spec.freezeSpeed * spec.freezeTime;
     rules.freezeTime = spec.freezeTime;
     rules.cagedTime = spec.cagedTime;
+    if (getenv("EXP_CONTACTS")) rules.contacts = atoi(getenv("EXP_CONTACTS"));
+    if (getenv("EXP_NET")) rules.netForceShare = atof(getenv("EXP_NET"));
     return rules;
 }
 

@@ -112,6 +112,8 @@ private:
         flow.freezeTime = number(0, 9);
         flow.cagedTime = number(0, 9);
         flow.buryClearance = number(0, 9);
+        flow.creepDecay = number(0, 9);
+        flow.creepDepth = number(0, 9);
     }
 
     SolidSpec makeSolid(SolidShape shape)

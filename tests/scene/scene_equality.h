@@ -59,6 +59,8 @@ inline void expectSame(const SurfaceFlowSpec& a, const SurfaceFlowSpec& b)
     expectSameBits(a.freezeTime, b.freezeTime);
     expectSameBits(a.cagedTime, b.cagedTime);
     expectSameBits(a.buryClearance, b.buryClearance);
+    expectSameBits(a.creepDecay, b.creepDecay);
+    expectSameBits(a.creepDepth, b.creepDepth);
 }
 
 inline void expectSame(const SolidSpec& a, const SolidSpec& b)

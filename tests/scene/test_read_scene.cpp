@@ -81,6 +81,8 @@ freeze_speed = 0.003
 freeze_time = 0.09
 caged_time = 0.4
 bury_clearance = 1.7
+creep_decay = 1.5
+creep_depth = 2.5
 [skip]
 sleep = false
 [camera]
@@ -131,6 +133,8 @@ angle = 40
     EXPECT_EQ(scene.surfaceFlow.freezeTime, 0.09);
     EXPECT_EQ(scene.surfaceFlow.cagedTime, 0.4);
     EXPECT_EQ(scene.surfaceFlow.buryClearance, 1.7);
+    EXPECT_EQ(scene.surfaceFlow.creepDecay, 1.5);
+    EXPECT_EQ(scene.surfaceFlow.creepDepth, 2.5);
     EXPECT_FALSE(scene.skip.sleep);
     EXPECT_EQ(scene.camera.position, Vec3(1, 1, 1));
     EXPECT_EQ(scene.camera.lookAt, Vec3(0, 0, 0.1));
