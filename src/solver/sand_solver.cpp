@@ -2,6 +2,7 @@
 
 #include "core/hash.h"
 #include "core/stage_clock.h"
+#include "transfer/flight_judge.h"
 
 #include <algorithm>
 #include <cmath>
@@ -87,7 +88,8 @@ SandSolver<Real>::SandSolver(const Scene& scene)
           }),
       bcre_(bcreParams(scene)),
       rest_(makeRestRules(scene.surfaceFlow)),
-      transfer_(transferParams(scene))
+      transfer_(transferParams(scene)),
+      separates_(scene.mode == Mode::surfaceFlow)
 {
     for (std::size_t e = 0; e < scene.emitters.size(); ++e) {
         emitters_.push_back(makeEmitter(scene, e));
@@ -137,12 +139,12 @@ FrameReport SandSolver<Real>::advanceFrame()
 template <class Real>
 void SandSolver<Real>::advanceWindow(double end, FrameReport& report)
 {
-    const double interval = end - time_;
+    windowStart_ = time_;
     solidsCameOrWent();
     moveGrains(end, report);  // step 3
     time_ = end;
-    if (scene_.mode == Mode::surfaceFlow) {
-        separateLayers(interval, report);  // steps 1 and 2
+    if (separates_) {
+        separateLayers(end - windowStart_, report);  // steps 1 and 2
     }
 }
 
@@ -161,6 +163,7 @@ void SandSolver<Real>::separateLayers(double interval, FrameReport& report)
     }
     {   // 2. Erosion and deposition through the particle interface
         StageClock clock(report.seconds.transfer);
+        report.transfer.landedMomentum += endFlights(interval, dem_);
         updateRestClocks(rest_, interval, dem_);
         markWoken(rest_, dem_);
         transfer_.plan(columns_, dem_);
@@ -235,7 +238,7 @@ void SandSolver<Real>::moveGrains(double end, FrameReport& report)
         const double dt = left / count;
         {
             StageClock clock(report.seconds.forces);
-            dem_.step(dt, count == 1.0 && scene_.mode == Mode::surfaceFlow);
+            dem_.step(dt, count == 1.0 && separates_);
         }
         time_ += dt;
         ++report.steps;
@@ -292,12 +295,15 @@ void SandSolver<Real>::admitNewGrains()
         guard_.admit(dem_, solids_, time_, retries, waiting_, admitted_);
         for (const NewGrain& g : admitted_) {
             SAND_CHECK(nextId_ < kFirstBoundaryId, "out of grain ids");
-            if (g.settled && scene_.mode == Mode::surfaceFlow) {
+            if (g.settled && separates_) {
                 dem_.recordContacts();
                 dem_.frozen().add(dem_.makeRecord(g.position, g.radius, nextId_++), {});
                 newBeds_ = true;
             } else {
                 dem_.addMobile(g.position, g.velocity, g.spin, g.radius, nextId_++);
+                if (separates_) {
+                    startFlight(time_ - windowStart_, dem_);
+                }
             }
         }
     };
@@ -334,11 +340,25 @@ void SandSolver<Real>::solidsCameOrWent()
         return;
     }
     dem_.recordContacts();
-    if (scene_.mode == Mode::surfaceFlow) {
+    if (separates_) {
         std::vector<std::pair<std::int32_t, std::int32_t>> cut;
         columns_.rebuildSpans(cut);
         transfer_.releaseAll(dem_, buried_);
     }
+}
+
+template <class Real>
+void SandSolver<Real>::releaseAll()
+{
+    dem_.recordContacts();
+    if (separates_) {
+        transfer_.releaseAll(dem_, buried_);
+    } else {
+        dem_.forgetContacts();
+    }
+    separates_ = false;
+    emitters_.clear();
+    waiting_.clear();
 }
 
 template <class Real>

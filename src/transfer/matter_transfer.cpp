@@ -31,6 +31,7 @@ TransferReport& TransferReport::operator+=(const TransferReport& o)
     fellAsleep += o.fellAsleep;
     woken += o.woken;
     trappedMomentum += o.trappedMomentum;
+    landedMomentum += o.landedMomentum;
     return *this;
 }
 

@@ -26,6 +26,7 @@ struct TransferReport {
     std::uint64_t fellAsleep = 0;  ///< mobile -> asleep
     std::uint64_t woken = 0;       ///< asleep -> mobile
     double trappedMomentum = 0.0;  ///< kg m/s, sum of |m v| at trapping and falling asleep
+    double landedMomentum = 0.0;   ///< kg m/s, sum of |m v| at the end of flights, flight_judge.h
 
     TransferReport& operator+=(const TransferReport& o);
 };
