@@ -166,15 +166,13 @@ void SandSolver<Real>::separateLayers(double interval, FrameReport& report)
         report.transfer.landedMomentum += endFlights(interval, dem_);
         updateRestClocks(rest_, interval, dem_);
         markWoken(rest_, dem_);
+        const std::vector<ImpactZone> zones = impacts_.foresee(interval, columns_, dem_);
+        wakeZones(zones, dem_);
         transfer_.plan(columns_, dem_);
         dem_.recordContacts();
-        report.transfer += transfer_.apply(columns_, dem_, buried_);
+        report.transfer += transfer_.apply(columns_, dem_, buried_, zones);
     }
     rebuildLists(report);
-    {
-        StageClock clock(report.seconds.transfer);
-        judgeNewlyFrozen(rest_, dem_);
-    }
 }
 
 /// H over all accumulated sand: everything fixed, and mobile grains that lie rather than fly.
@@ -222,6 +220,9 @@ void SandSolver<Real>::moveGrains(double end, FrameReport& report)
             if (!dem_.listsHold()) {
                 dem_.recordContacts();
                 dropExited();
+                if (separates_) {
+                    report.transfer += transfer_.wakeMarked(columns_, dem_, buried_);
+                }
             }
             admitNewGrains();
             retry = false;
@@ -255,6 +256,9 @@ void SandSolver<Real>::rebuildLists(FrameReport& report)
     StageClock clock(report.seconds.rebuild);
     dem_.rebuild(time_, stableStepNow());
     ++report.rebuilds;
+    if (separates_) {
+        judgeNewlyFrozen(rest_, dem_);
+    }
 }
 
 /// The linear law's step never changes. Hertzian contacts stiffen with overlap: the step follows

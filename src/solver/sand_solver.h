@@ -56,6 +56,7 @@ private:
     BcreParams bcre_;
     RestRules rest_;
     MatterTransfer<Real> transfer_;
+    ImpactWatch impacts_;
     std::vector<AccumulatedGrain> accumulated_;
 
     std::vector<std::unique_ptr<Emitter>> emitters_;
