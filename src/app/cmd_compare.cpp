@@ -5,9 +5,12 @@
 #include "io/run_folder.h"
 #include "io/state_file.h"
 #include "measure/compare.h"
+#include "measure/crater.h"
 #include "scene/read_scene.h"
 
 #include <fmt/format.h>
+
+#include <optional>
 
 namespace sandflow {
 namespace {
@@ -15,20 +18,39 @@ namespace {
 struct CompareOptions {
     std::string runA;
     std::string runB;
+    std::optional<std::uint64_t> frame, since;
     bool json = false;
 };
 
 struct Run {
     std::string path;
     RunFigures figures;
-    Snapshot last;
+    Snapshot sand;                ///< at the end, or at the frame asked for
+    std::optional<Snapshot> before;  ///< where a crater since then is asked for
 };
 
-Run readRun(const std::string& path)
+Run readRun(const std::string& path, const CompareOptions& options)
 {
     const RunFolder folder(path, FolderUse::read);
-    return {path, readRunFigures(path), readState(folder.findState(std::nullopt))};
+    Run run{path, readRunFigures(path), readState(folder.findState(options.frame)), std::nullopt};
+    if (options.since) {
+        run.before = readState(folder.findState(options.since));
+    }
+    return run;
 }
+
+/// What was dug in each run since the earlier frame.
+struct Craters {
+    CraterFigures a, b;
+
+    /// In d, b minus a.
+    double depthDifference(double diameter) const { return (b.depth - a.depth) / diameter; }
+    /// % of a's; none if a has none.
+    std::optional<double> volumeDifference() const
+    {
+        return a.volume > 0.0 ? std::optional(100.0 * (b.volume / a.volume - 1.0)) : std::nullopt;
+    }
+};
 
 /// True if both hold the same grains, to the last bit.
 bool areIdentical(const Snapshot& a, const Snapshot& b)
@@ -45,6 +67,34 @@ void writeShares(JsonWriter& json, std::string_view name, const GrainShares& sha
     json.member("interface", shares.interface).member("buried", shares.buried).endObject();
 }
 
+void writeOptional(JsonWriter& json, std::string_view key, const std::optional<double>& value)
+{
+    json.key(key);
+    if (value) {
+        json.value(*value);
+    } else {
+        json.null();
+    }
+}
+
+void writeCrater(JsonWriter& json, std::string_view name, const CraterFigures& crater)
+{
+    json.key(name).beginObject();
+    json.member("x_m", crater.centre.x()).member("y_m", crater.centre.y());
+    json.member("depth_m", crater.depth).member("volume_m3", crater.volume);
+    json.member("rim_m", crater.rim).endObject();
+}
+
+void writeCraters(JsonWriter& json, const Craters& craters, double diameter)
+{
+    json.key("crater").beginObject();
+    writeCrater(json, "a", craters.a);
+    writeCrater(json, "b", craters.b);
+    json.member("depth_d", craters.depthDifference(diameter));
+    writeOptional(json, "volume_percent", craters.volumeDifference());
+    json.endObject();
+}
+
 void writeRun(JsonWriter& json, std::string_view name, const Run& run, const HeapFigures& heap)
 {
     const RunFigures& f = run.figures;
@@ -56,12 +106,7 @@ void writeRun(JsonWriter& json, std::string_view name, const Run& run, const Hea
     writeShares(json, "share_pouring", f.pouring);
     json.member("wall_s_per_frame", f.wallPerFrame).member("steps_per_frame", f.stepsPerFrame);
     json.member("dt_mean_s", f.step).member("ledger_ok", f.ledgerOk);
-    json.key("repose_deg");
-    if (heap.reposeDeg) {
-        json.value(*heap.reposeDeg);
-    } else {
-        json.null();
-    }
+    writeOptional(json, "repose_deg", heap.reposeDeg);
     json.member("apex_m", heap.apex).member("r90_m", heap.r90).member("foot_m", heap.foot);
     json.member("volume_m3", heap.volume).member("solid_fraction", heap.solidFraction);
     json.endObject();
@@ -75,33 +120,31 @@ void writeDifference(JsonWriter& json, std::string_view name, const HeightDiffer
     json.member("places", difference.places).endObject();
 }
 
-std::string formatJson(const Run& a, const Run& b, const HeapComparison& heaps)
+std::string formatJson(const Run& a, const Run& b, const HeapComparison& heaps,
+                       const std::optional<Craters>& craters)
 {
     JsonWriter json;
     json.beginObject();
     writeRun(json, "a", a, heaps.a);
     writeRun(json, "b", b, heaps.b);
     json.key("difference").beginObject();
-    json.member("identical", areIdentical(a.last, b.last)).member("diameter_m", heaps.diameter);
+    json.member("identical", areIdentical(a.sand, b.sand)).member("diameter_m", heaps.diameter);
     writeDifference(json, "height_radial", heaps.radial);
     writeDifference(json, "height_cells", heaps.cells);
     json.member("centroid_d", heaps.centroidShift).member("apex_d", heaps.apexDifference);
-    json.key("repose_deg");
-    if (heaps.reposeDifference) {
-        json.value(*heaps.reposeDifference);
-    } else {
-        json.null();
-    }
+    writeOptional(json, "repose_deg", heaps.reposeDifference);
     json.member("r90_percent", heaps.r90Difference).member("foot_d", heaps.footDifference);
     json.member("volume_percent", heaps.volumeDifference);
     json.member("grains", heaps.countDifference);
-    json.key("wall_ratio");  // b over a
-    if (a.figures.wallPerFrame > 0.0) {
-        json.value(b.figures.wallPerFrame / a.figures.wallPerFrame);
-    } else {
-        json.null();
+    writeOptional(json, "wall_ratio",  // b over a
+                  a.figures.wallPerFrame > 0.0
+                      ? std::optional(b.figures.wallPerFrame / a.figures.wallPerFrame)
+                      : std::nullopt);
+    json.endObject();
+    if (craters) {
+        writeCraters(json, *craters, heaps.diameter);
     }
-    json.endObject().endObject();
+    json.endObject();
     return json.text();
 }
 
@@ -110,7 +153,24 @@ std::string formatRow(std::string_view name, const std::string& a, const std::st
     return fmt::format("{:<32} {:>12} {:>12}\n", name, a, b);
 }
 
-std::string formatText(const Run& a, const Run& b, const HeapComparison& heaps)
+std::string formatCraters(const Run& a, const Craters& craters, double diameter)
+{
+    const auto millimetres = [](double length) { return fmt::format("{:.1f}", 1e3 * length); };
+    const auto litres = [](double volume) { return fmt::format("{:.4f}", 1e3 * volume); };
+    const auto difference = craters.volumeDifference();
+    std::string text = fmt::format("\nsunk since frame {}, between grains of then\n",
+                                   a.before->frame);
+    text += formatRow("crater", "A", "B");
+    text += formatRow("depth, mm", millimetres(craters.a.depth), millimetres(craters.b.depth));
+    text += formatRow("rim, mm", millimetres(craters.a.rim), millimetres(craters.b.rim));
+    text += formatRow("volume, dm3", litres(craters.a.volume), litres(craters.b.volume));
+    text += fmt::format("B - A: depth {:+.2f} d, volume {}\n", craters.depthDifference(diameter),
+                        difference ? fmt::format("{:+.1f} %", *difference) : "none in A");
+    return text;
+}
+
+std::string formatText(const Run& a, const Run& b, const HeapComparison& heaps,
+                       const std::optional<Craters>& craters)
 {
     const auto percent = [](double share) { return fmt::format("{:.1f} %", 100.0 * share); };
     const auto number = [](auto value) { return fmt::format("{}", value); };
@@ -141,17 +201,27 @@ std::string formatText(const Run& a, const Run& b, const HeapComparison& heaps)
     text += formatRow("ledger", fa.ledgerOk ? "balances" : "BROKEN",
                       fb.ledgerOk ? "balances" : "BROKEN");
     text += "\n" + describe(heaps);
-    text += areIdentical(a.last, b.last) ? "the last states are identical, bit for bit\n" : "";
+    text += areIdentical(a.sand, b.sand) ? "the states are identical, bit for bit\n" : "";
+    if (craters) {
+        text += formatCraters(a, *craters, heaps.diameter);
+    }
     return text;
 }
 
 ExitCode compareRuns(const CompareOptions& options)
 {
-    const Run a = readRun(options.runA);
-    const Run b = readRun(options.runB);
+    const Run a = readRun(options.runA, options);
+    const Run b = readRun(options.runB, options);
     const Scene scene = readScene(RunFolder(a.path, FolderUse::read).scenePath());
-    const HeapComparison heaps = compareHeaps(a.last, b.last, makeSceneFloor(scene, a.last.time));
-    fmt::print("{}", options.json ? formatJson(a, b, heaps) : formatText(a, b, heaps));
+    const FloorHeight floor = makeSceneFloor(scene, a.sand.time);
+    const HeapComparison heaps = compareHeaps(a.sand, b.sand, floor);
+    std::optional<Craters> craters;
+    if (options.since) {
+        craters = {measureCrater(*a.before, a.sand, floor),
+                   measureCrater(*b.before, b.sand, floor)};
+    }
+    fmt::print("{}", options.json ? formatJson(a, b, heaps, craters)
+                                  : formatText(a, b, heaps, craters));
     return ExitCode::done;
 }
 
@@ -164,6 +234,10 @@ void addCompareCommand(CLI::App& app, Action& action)
         "compare", "Compare two runs: heap shape in grain diameters and degrees, shares, cost");
     command->add_option("run_a", options->runA, "Run folder A, the reference")->required();
     command->add_option("run_b", options->runB, "Run folder B")->required();
+    command->add_option("--frame", options->frame,
+                        "Compare the sand of this frame, not the last (of runs with --keep-states)");
+    command->add_option("--since", options->since,
+                        "Also the crater dug since this frame: depth and volume");
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([options, &action] { action = [options] { return compareRuns(*options); }; });
 }

@@ -25,6 +25,11 @@ void addRunCommand(CLI::App& app, Action& action)
     run->add_flag("--no-frames", options->noFrames, "Write no picture files");
     run->add_flag("--all-grains", options->allGrains, "Buried grains in the picture files too");
     run->add_flag("--keep-states", options->keepStates, "Keep the state of every frame");
+    run->add_option("--release-at-end", options->releaseSeconds,
+                    "Then set all sand free for so many seconds and report how it moved; in dem "
+                    "mode, for comparison, wipe its contacts' history")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(1e-6, 1e6));
     run->add_flag("--no-skip", options->noSkip, "Leave out no work (no sleeping)");
     run->add_flag("--quiet", options->quiet, "Print the summary only");
     run->callback([options, &action] {

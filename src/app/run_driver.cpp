@@ -3,6 +3,7 @@
 #include "app/environment.h"
 #include "app/progress.h"
 #include "app/run_summary.h"
+#include "app/scene_floor.h"
 #include "app/seen_through.h"
 #include "core/stage_clock.h"
 #include "io/atomic_file.h"
@@ -12,6 +13,7 @@
 #include "io/pov_scene.h"
 #include "io/run_folder.h"
 #include "io/state_file.h"
+#include "measure/release.h"
 #include "scene/read_scene.h"
 #include "scene/write_scene.h"
 #include "solver/simulation.h"
@@ -83,6 +85,12 @@ Scene resolveMeshes(Scene scene, const SolidSet& solids)
     return scene;
 }
 
+/// Frames that `seconds` take, the last one perhaps longer.
+std::uint64_t countFrames(double seconds, double framePeriod)
+{
+    return static_cast<std::uint64_t>(std::ceil(seconds / framePeriod - 1e-9));
+}
+
 /// For the picture; none if there is no picture.
 std::vector<SceneMesh> copyMeshes(const SolidSet& solids, bool wanted)
 {
@@ -109,7 +117,9 @@ ExitCode runScene(const RunOptions& options)
         options.folder.empty() ? "runs/" + scene.name + "-" + modeName : options.folder,
         options.force ? FolderUse::force : FolderUse::fresh);
 
-    const std::uint64_t frames = std::min(plan.frames, options.frames.value_or(plan.frames));
+    const std::uint64_t ordinary = std::min(plan.frames, options.frames.value_or(plan.frames));
+    const std::uint64_t frames =
+        ordinary + countFrames(options.releaseSeconds.value_or(0.0), plan.framePeriod);
     if (!options.quiet) {
         printPlan(scene, plan);
     }
@@ -128,15 +138,16 @@ ExitCode runScene(const RunOptions& options)
     Progress progress(frames, options.quiet);
     RunSummary summary(scene, plan);
     Snapshot snapshot;
-    for (std::uint64_t f = 1; f <= frames; ++f) {
+    const auto runFrame = [&](std::uint64_t f) {
         double wall = 0.0;
         FrameRow row;
+        FrameReport report;
         {
             StageClock frameClock(wall);
-            const FrameReport report = sand->advanceFrame();
+            report = sand->advanceFrame();
             row = makeRow(report, scene.grains.radius);
             StageClock outputClock(row.outputTime);
-            if (!options.noFrames || options.keepStates || f == frames) {
+            if (!options.noFrames || options.keepStates || f >= ordinary) {
                 sand->takeSnapshot(snapshot);
             }
             if (!options.noFrames) {
@@ -146,19 +157,34 @@ ExitCode runScene(const RunOptions& options)
             if (options.keepStates) {
                 writeState(folder.statePath(f), snapshot);
             }
-            summary.add(report, sand->countLeaks());
+            summary.addLeaks(sand->countLeaks());
         }
         row.wall = wall;
-        summary.addWall(row);
+        if (f <= ordinary) {
+            summary.add(report, row);
+        }
         log.append(row);
         progress.show(row);
+    };
+    for (std::uint64_t f = 1; f <= ordinary; ++f) {
+        runFrame(f);
+    }
+    summary.finish(*sand, snapshot);
+    if (options.releaseSeconds) {
+        sand->takeSnapshot(snapshot);  // also of a run of no frames
+        ReleaseWatch watch(snapshot, makeSceneFloor(scene, snapshot.time), scene.gravity.norm());
+        sand->releaseAll();
+        for (std::uint64_t f = ordinary + 1; f <= frames; ++f) {
+            runFrame(f);
+            watch.look(snapshot);
+        }
+        summary.addRelease(watch.figures(snapshot));
     }
     writeState(folder.lastStatePath(), snapshot);
     if (!options.noFrames) {
         writePovScene(folder.path(), findPovrayFolder(), scene, {frames, measureSandBox(snapshot)},
                       meshes);
     }
-    summary.finish(*sand, snapshot);
     folder.writeSummary(summary.json());
     progress.finish();
     fmt::print("{}", summary.text());

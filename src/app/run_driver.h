@@ -23,6 +23,7 @@ struct RunOptions {
     bool allGrains = false;
     bool keepStates = false;
     bool noSkip = false;
+    std::optional<double> releaseSeconds;  ///< simulated after the end, with all sand set free
     bool quiet = false;
 };
 

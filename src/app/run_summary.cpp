@@ -28,6 +28,36 @@ std::string modeName(const Scene& scene)
     return scene.mode == Mode::dem ? "dem" : "surface-flow";
 }
 
+void writeOptional(JsonWriter& json, std::string_view key, const std::optional<double>& value)
+{
+    json.key(key);
+    if (value) {
+        json.value(*value);
+    } else {
+        json.null();
+    }
+}
+
+void writeRelease(JsonWriter& json, const ReleaseFigures& release)
+{
+    json.key("release").beginObject();
+    json.member("seconds", release.seconds).member("apex_moved_d", release.apexMoved);
+    json.member("mean_dh_d", release.meanHeightChange);
+    writeOptional(json, "repose_moved_deg", release.reposeMoved);
+    json.member("fastest_m_s", release.fastest).member("could_fall_m_s", release.couldFall);
+    json.endObject();
+}
+
+std::string describeRelease(const ReleaseFigures& release)
+{
+    return fmt::format(
+        "set free for {:.3g} s: apex moved {:+.3f} d, mean |dH| {:.3f} d, repose {} deg, fastest "
+        "grain {:.3f} m/s where a fall makes {:.3f} m/s\n",
+        release.seconds, release.apexMoved, release.meanHeightChange,
+        release.reposeMoved ? fmt::format("{:+.2f}", *release.reposeMoved) : "none",
+        release.fastest, release.couldFall);
+}
+
 }  // namespace
 
 std::string findPovrayFolder()
@@ -42,16 +72,11 @@ std::string findPovrayFolder()
     return folder;
 }
 
-void RunSummary::add(const FrameReport& report, std::uint64_t leaks)
+void RunSummary::add(const FrameReport& report, const FrameRow& row)
 {
-    leaks_ += leaks;
     reports_.push_back(report);
-    transfer_ += report.transfer;
-}
-
-void RunSummary::addWall(const FrameRow& row)
-{
     rows_.push_back(row);
+    transfer_ += report.transfer;
 }
 
 void RunSummary::finish(const Simulation& sand, const Snapshot& last)
@@ -83,6 +108,15 @@ double RunSummary::meanWall() const
         }
     }
     return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
+/// Momentum that grains lost because they were fixed while they still moved, over what they brought;
+/// none where nothing has landed.
+std::optional<double> RunSummary::trappedShare() const
+{
+    return transfer_.landedMomentum > 0.0
+               ? std::optional(transfer_.trappedMomentum / transfer_.landedMomentum)
+               : std::nullopt;
 }
 
 JsonWriter RunSummary::json() const
@@ -117,12 +151,7 @@ JsonWriter RunSummary::json() const
     json.member("buried_bytes", bytesBuried_);
     json.member("state_hash", fmt::format("{:016x}", hash_));
     json.key("heap").beginObject();
-    json.key("repose_deg");
-    if (repose_) {
-        json.value(*repose_);
-    } else {
-        json.null();
-    }
+    writeOptional(json, "repose_deg", repose_);
     json.member("apex_m", apex_).member("r90_m", r90_).endObject();
     json.key("meshes").beginArray();
     for (const MeshFigures& mesh : meshes_) {
@@ -133,7 +162,12 @@ JsonWriter RunSummary::json() const
     json.member("trapped", transfer_.trapped).member("dislodged", transfer_.dislodged);
     json.member("buried", transfer_.buried).member("uncovered", transfer_.uncovered);
     json.member("fell_asleep", transfer_.fellAsleep).member("woken", transfer_.woken);
-    json.member("trapped_momentum_kg_m_s", transfer_.trappedMomentum).endObject();
+    json.member("trapped_momentum_kg_m_s", transfer_.trappedMomentum);
+    json.member("landed_momentum_kg_m_s", transfer_.landedMomentum).endObject();
+    writeOptional(json, "trapped_momentum_share", trappedShare());
+    if (release_) {
+        writeRelease(json, *release_);
+    }
     json.key("skipped").beginObject();
     json.member("grain_steps_done", grainSteps).member("grain_steps_skipped", skipped);
     json.endObject();
@@ -174,6 +208,13 @@ std::string RunSummary::text() const
                                             static_cast<double>(done + skipped)
                                       : 0.0,
                        hash_);
+    if (trappedShare()) {
+        out += fmt::format("momentum lost to trapping: {:.3f} % of what landed\n",
+                           100.0 * *trappedShare());
+    }
+    if (release_) {
+        out += describeRelease(*release_);
+    }
     return out;
 }
 

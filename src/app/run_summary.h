@@ -3,8 +3,10 @@
 #include "app/mesh_figures.h"
 #include "io/frame_row.h"
 #include "io/json_writer.h"
+#include "measure/release.h"
 #include "solver/simulation.h"
 
+#include <optional>
 #include <string>
 
 namespace sandflow {
@@ -18,9 +20,11 @@ class RunSummary {
 public:
     RunSummary(const Scene& scene, const RunPlan& plan) : scene_(scene), plan_(plan) {}
 
-    /// leaks: grain centres inside solids at the end of the frame.
-    void add(const FrameReport& report, std::uint64_t leaks);
-    void addWall(const FrameRow& row);
+    void add(const FrameReport& report, const FrameRow& row);
+    /// Grain centres inside solids at the end of a frame.
+    void addLeaks(std::uint64_t leaks) { leaks_ += leaks; }
+    /// All there is to say of a release after that, but for leaks.
+    void addRelease(const ReleaseFigures& release) { release_ = release; }
     void finish(const Simulation& sand, const Snapshot& last);
 
     JsonWriter json() const;
@@ -36,9 +40,11 @@ private:
     std::size_t bytesMobile_ = 0, bytesBuried_ = 0, bytesCover_ = 0;
     double apex_ = 0, r90_ = 0;
     std::optional<double> repose_;
+    std::optional<ReleaseFigures> release_;
     std::vector<MeshFigures> meshes_;
 
     double meanWall() const;
+    std::optional<double> trappedShare() const;
 };
 
 }  // namespace sandflow

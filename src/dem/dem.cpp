@@ -79,6 +79,13 @@ void Dem<Real>::recordContacts()
 }
 
 template <class Real>
+void Dem<Real>::forgetContacts()
+{
+    SAND_CHECK(contactsRecorded_, "springs are wiped between recordContacts() and rebuild()");
+    std::fill(mobile_.row.begin(), mobile_.row.end(), kNoRow);
+}
+
+template <class Real>
 void Dem<Real>::addMobile(const Vec3& position, const Vec3& velocity, const Vec3& spin,
                           double radius, std::uint32_t id)
 {

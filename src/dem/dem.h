@@ -57,6 +57,8 @@ public:
     /// Before any change of the sets: keeps the springs of all live contacts, by id, and ends the
     /// lists. Nothing happens if that was done since the last rebuild.
     void recordContacts();
+    /// Wipes the springs that recordContacts() kept: all contacts begin anew.
+    void forgetContacts();
     /// While the lists hold it is put into them as well; where that cannot be, they hold no longer.
     void addMobile(const Vec3& position, const Vec3& velocity, const Vec3& spin, double radius,
                    std::uint32_t id);

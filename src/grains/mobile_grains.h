@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/vec3.h"
 #include "grains/grain_record.h"
 
 #include <cstdint>
@@ -12,6 +13,8 @@ namespace sandflow {
 struct GrainMemory {
     double anchorX = 0, anchorY = 0, anchorZ = 0;  ///< m, where it was when it last counted as moved
     float stillTime = 0;                           ///< s since then
+    float freeTime = 0;                            ///< s since it last touched anything
+    Vec3f velocity = Vec3f::Zero();                ///< m/s, when that was last looked at
 };
 
 /// What one observed step says of a mobile grain.
@@ -48,7 +51,8 @@ struct MobileGrains {
         record.push_back(grain);
         row.push_back(kNoRow);
         if (judged) {
-            memory.push_back({grain.x, grain.y, grain.z, 0.0f});
+            GrainMemory& latest = memory.emplace_back();
+            latest.anchorX = grain.x, latest.anchorY = grain.y, latest.anchorZ = grain.z;
         }
     }
 

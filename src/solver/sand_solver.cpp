@@ -2,6 +2,7 @@
 
 #include "core/hash.h"
 #include "core/stage_clock.h"
+#include "transfer/flight_judge.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,7 +99,8 @@ SandSolver<Real>::SandSolver(const Scene& scene)
       bcre_(bcreParams(scene)),
       rest_(makeRestRules(scene.surfaceFlow)),
       transfer_(transferParams(scene)),
-      creep_(creepParams(scene))
+      creep_(creepParams(scene)),
+      separates_(scene.mode == Mode::surfaceFlow)
 {
     for (std::size_t e = 0; e < scene.emitters.size(); ++e) {
         emitters_.push_back(makeEmitter(scene, e));
@@ -148,12 +150,12 @@ FrameReport SandSolver<Real>::advanceFrame()
 template <class Real>
 void SandSolver<Real>::advanceWindow(double end, FrameReport& report)
 {
-    const double interval = end - time_;
+    windowStart_ = time_;
     solidsCameOrWent();
     moveGrains(end, report);  // step 3
     time_ = end;
-    if (scene_.mode == Mode::surfaceFlow) {
-        separateLayers(interval, report);  // steps 1 and 2
+    if (separates_) {
+        separateLayers(end - windowStart_, report);  // steps 1 and 2
     }
 }
 
@@ -172,18 +174,17 @@ void SandSolver<Real>::separateLayers(double interval, FrameReport& report)
     }
     {   // 2. Erosion and deposition through the particle interface
         StageClock clock(report.seconds.transfer);
+        report.transfer.landedMomentum += endFlights(interval, dem_);
         updateRestClocks(rest_, interval, dem_);
         markWoken(rest_, dem_);
+        const std::vector<ImpactZone> zones = impacts_.foresee(interval, columns_, dem_);
+        wakeZones(zones, dem_);
         transfer_.plan(columns_, dem_);
         dem_.recordContacts();
-        report.transfer += transfer_.apply(columns_, dem_, buried_);
+        report.transfer += transfer_.apply(columns_, dem_, buried_, zones);
         creep_.carry(columns_, interval, dem_);
     }
     rebuildLists(report);
-    {
-        StageClock clock(report.seconds.transfer);
-        judgeNewlyFrozen(rest_, dem_);
-    }
 }
 
 /// H over all accumulated sand: everything fixed, and mobile grains that lie rather than fly.
@@ -231,6 +232,9 @@ void SandSolver<Real>::moveGrains(double end, FrameReport& report)
             if (!dem_.listsHold()) {
                 dem_.recordContacts();
                 dropExited();
+                if (separates_) {
+                    report.transfer += transfer_.wakeMarked(columns_, dem_, buried_);
+                }
             }
             admitNewGrains();
             retry = false;
@@ -247,7 +251,7 @@ void SandSolver<Real>::moveGrains(double end, FrameReport& report)
         const double dt = left / count;
         {
             StageClock clock(report.seconds.forces);
-            dem_.step(dt, count == 1.0 && scene_.mode == Mode::surfaceFlow);
+            dem_.step(dt, count == 1.0 && separates_);
         }
         time_ += dt;
         ++report.steps;
@@ -264,6 +268,9 @@ void SandSolver<Real>::rebuildLists(FrameReport& report)
     StageClock clock(report.seconds.rebuild);
     dem_.rebuild(time_, stableStepNow());
     ++report.rebuilds;
+    if (separates_) {
+        judgeNewlyFrozen(rest_, dem_);
+    }
 }
 
 /// The linear law's step never changes. Hertzian contacts stiffen with overlap: the step follows
@@ -304,12 +311,15 @@ void SandSolver<Real>::admitNewGrains()
         guard_.admit(dem_, solids_, time_, retries, waiting_, admitted_);
         for (const NewGrain& g : admitted_) {
             SAND_CHECK(nextId_ < kFirstBoundaryId, "out of grain ids");
-            if (g.settled && scene_.mode == Mode::surfaceFlow) {
+            if (g.settled && separates_) {
                 dem_.recordContacts();
                 dem_.frozen().add(dem_.makeRecord(g.position, g.radius, nextId_++), {});
                 newBeds_ = true;
             } else {
                 dem_.addMobile(g.position, g.velocity, g.spin, g.radius, nextId_++);
+                if (separates_) {
+                    startFlight(time_ - windowStart_, dem_);
+                }
             }
         }
     };
@@ -346,11 +356,25 @@ void SandSolver<Real>::solidsCameOrWent()
         return;
     }
     dem_.recordContacts();
-    if (scene_.mode == Mode::surfaceFlow) {
+    if (separates_) {
         std::vector<std::pair<std::int32_t, std::int32_t>> cut;
         columns_.rebuildSpans(cut);
         transfer_.releaseAll(dem_, buried_);
     }
+}
+
+template <class Real>
+void SandSolver<Real>::releaseAll()
+{
+    dem_.recordContacts();
+    if (separates_) {
+        transfer_.releaseAll(dem_, buried_);
+    } else {
+        dem_.forgetContacts();
+    }
+    separates_ = false;
+    emitters_.clear();
+    waiting_.clear();
 }
 
 template <class Real>

@@ -23,6 +23,7 @@ public:
 
     FrameReport advanceFrame() override;
     bool finished() const override { return frame_ >= plan_.frames; }
+    void releaseAll() override;
     const RunPlan& plan() const override { return plan_; }
     const SolidSet& solids() const override { return solids_; }
     Ledger ledger() const override;
@@ -57,14 +58,17 @@ private:
     RestRules rest_;
     MatterTransfer<Real> transfer_;
     BedCreep<Real> creep_;
+    ImpactWatch impacts_;
     std::vector<AccumulatedGrain> accumulated_;
 
     std::vector<std::unique_ptr<Emitter>> emitters_;
     std::vector<NewGrain> waiting_, admitted_;
     OverlapGuard<Real> guard_;
+    bool separates_;         ///< steps 1 and 2 are done: surface flow, until all sand is released
     bool newBeds_ = false;   ///< settled sand came in and its columns do not know it yet
 
     double time_ = 0.0;
+    double windowStart_ = 0.0;     ///< s, when steps 1 and 2 were last due
     double solidsKnownAt_ = 0.0;   ///< s, when the columns were last cut by the solids
     std::uint64_t frame_ = 0;
     std::uint32_t nextId_ = 0;

@@ -67,6 +67,11 @@ public:
     /// Runs to the next frame. Throws PhysicsError when the physics broke.
     virtual FrameReport advanceFrame() = 0;
     virtual bool finished() const = 0;
+
+    /// Sets all sand free, for good: from now on every grain is mobile and computed, as in dem mode,
+    /// and no new ones come. In dem mode, where all are, the springs of all contacts are wiped
+    /// instead, which frozen grains have lost too. The frames after that may go beyond finished().
+    virtual void releaseAll() = 0;
     virtual const RunPlan& plan() const = 0;
     virtual const SolidSet& solids() const = 0;
     virtual Ledger ledger() const = 0;

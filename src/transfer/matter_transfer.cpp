@@ -31,6 +31,7 @@ TransferReport& TransferReport::operator+=(const TransferReport& o)
     fellAsleep += o.fellAsleep;
     woken += o.woken;
     trappedMomentum += o.trappedMomentum;
+    landedMomentum += o.landedMomentum;
     return *this;
 }
 
@@ -89,7 +90,8 @@ auto MatterTransfer<Real>::judgeFrozen(const ColumnGrid& columns, const Dem<Real
 
 template <class Real>
 TransferReport MatterTransfer<Real>::apply(const ColumnGrid& columns, Dem<Real>& dem,
-                                           BuriedGrains& buried)
+                                           BuriedGrains& buried,
+                                           std::span<const ImpactZone> zones)
 {
     TransferReport report;
     // Erosion: interface grains above h, and sleepers that were disturbed, are free again.
@@ -123,13 +125,45 @@ TransferReport MatterTransfer<Real>::apply(const ColumnGrid& columns, Dem<Real>&
         dem.frozen().add(dem.makeRecord(positionOf(g), static_cast<double>(g.radius), g.id), info);
         return false;
     });
-    for (const GrainRecord<Real>& g : freed_) {
-        dem.addMobile(positionOf(g), Vec3::Zero(), Vec3::Zero(), static_cast<double>(g.radius),
-                      g.id);
+    addFreed(dem);
+    for (const ImpactZone& zone : zones) {
+        freeBuriedIn(zone, columns, dem, buried, report);
     }
     findBuryLines(columns, dem);
     buryDeepOnes(columns, dem, buried, report);
     uncoverShallowOnes(columns, dem, buried, report);
+    return report;
+}
+
+template <class Real>
+void MatterTransfer<Real>::addFreed(Dem<Real>& dem) const
+{
+    for (const GrainRecord<Real>& g : freed_) {
+        dem.addMobile(positionOf(g), Vec3::Zero(), Vec3::Zero(), static_cast<double>(g.radius),
+                      g.id);
+    }
+}
+
+template <class Real>
+TransferReport MatterTransfer<Real>::wakeMarked(const ColumnGrid& columns, Dem<Real>& dem,
+                                                BuriedGrains& buried)
+{
+    TransferReport report;
+    freed_.clear();
+    dem.frozen().removeUnless([&](std::size_t k) {
+        const FrozenInfo& info = dem.frozen().info(k);
+        if (!info.wakes) {
+            return true;
+        }
+        ++(info.state == GrainState::asleep ? report.woken : report.dislodged);
+        freed_.push_back(dem.frozen().record(k));
+        return false;
+    });
+    if (!freed_.empty()) {
+        addFreed(dem);
+        findBuryLines(columns, dem);
+        uncoverShallowOnes(columns, dem, buried, report);
+    }
     return report;
 }
 
@@ -206,6 +240,30 @@ void MatterTransfer<Real>::buryDeepOnes(const ColumnGrid& columns, Dem<Real>& de
         ++report.buried;
         return false;
     });
+}
+
+template <class Real>
+void MatterTransfer<Real>::freeBuriedIn(const ImpactZone& zone, const ColumnGrid& columns,
+                                        Dem<Real>& dem, BuriedGrains& buried,
+                                        TransferReport& report)
+{
+    const auto [x, y] = std::pair(zone.centre.x(), zone.centre.y());
+    for (std::int32_t j = columns.cellIndex(y - zone.radius);
+         j <= columns.cellIndex(y + zone.radius); ++j) {
+        for (std::int32_t i = columns.cellIndex(x - zone.radius);
+             i <= columns.cellIndex(x + zone.radius); ++i) {
+            buried.takeAbove(i, j, zone.centre.z() - zone.radius,
+                             [&](const Vec3& position, double radius, std::uint32_t id) {
+                                 if (!zone.holds(position)) {
+                                     return false;
+                                 }
+                                 dem.addMobile(position, Vec3::Zero(), Vec3::Zero(), radius, id);
+                                 ++report.uncovered;
+                                 ++report.dislodged;
+                                 return true;
+                             });
+        }
+    }
 }
 
 template <class Real>

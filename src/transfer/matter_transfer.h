@@ -3,8 +3,10 @@
 #include "bcre/columns.h"
 #include "dem/dem.h"
 #include "grains/buried_grains.h"
+#include "transfer/impact_zones.h"
 #include "transfer/rest_judge.h"
 
+#include <span>
 #include <vector>
 
 namespace sandflow {
@@ -26,6 +28,7 @@ struct TransferReport {
     std::uint64_t fellAsleep = 0;  ///< mobile -> asleep
     std::uint64_t woken = 0;       ///< asleep -> mobile
     double trappedMomentum = 0.0;  ///< kg m/s, sum of |m v| at trapping and falling asleep
+    double landedMomentum = 0.0;   ///< kg m/s, sum of |m v| at the end of flights, flight_judge.h
 
     TransferReport& operator+=(const TransferReport& o);
 };
@@ -43,7 +46,14 @@ public:
     explicit MatterTransfer(const TransferParams& params) : params_(params) {}
 
     void plan(const ColumnGrid& columns, const Dem<Real>& dem);
-    TransferReport apply(const ColumnGrid& columns, Dem<Real>& dem, BuriedGrains& buried);
+    /// Besides, buried grains in the zones are set free; frozen ones there must be marked to wake.
+    TransferReport apply(const ColumnGrid& columns, Dem<Real>& dem, BuriedGrains& buried,
+                         std::span<const ImpactZone> zones = {});
+
+    /// Sets only those grains free that are marked to wake, and uncovers what is buried near them:
+    /// when lists are made anew between two transfers, for a blow runs through sand much faster than
+    /// they come (between recordContacts() and rebuild()).
+    TransferReport wakeMarked(const ColumnGrid& columns, Dem<Real>& dem, BuriedGrains& buried);
 
     /// Makes every frozen and buried grain mobile (between recordContacts() and rebuild()).
     void releaseAll(Dem<Real>& dem, BuriedGrains& buried) const;
@@ -59,9 +69,12 @@ private:
     Fate judgeFrozen(const ColumnGrid& columns, const Dem<Real>& dem, std::size_t k) const;
     static constexpr std::size_t kBins = 4;  ///< quarters of a column
     static std::size_t binOf(const ColumnGrid& columns, std::int32_t span, double x, double y);
+    void addFreed(Dem<Real>& dem) const;
     void findBuryLines(const ColumnGrid& columns, const Dem<Real>& dem);
     void buryDeepOnes(const ColumnGrid& columns, Dem<Real>& dem, BuriedGrains& buried,
                       TransferReport& report);
+    static void freeBuriedIn(const ImpactZone& zone, const ColumnGrid& columns, Dem<Real>& dem,
+                             BuriedGrains& buried, TransferReport& report);
     void uncoverShallowOnes(const ColumnGrid& columns, Dem<Real>& dem, BuriedGrains& buried,
                             TransferReport& report);
 

@@ -205,5 +205,66 @@ TEST_F(TinyRun, ComparedWithAnotherPourDiffers)
     EXPECT_NE(refused.errors.find("mean radius"), std::string::npos) << refused.errors;
 }
 
+TEST_F(TinyRun, SaysWhatTrappingCost)
+{
+    const JsonScalars summary(read("out/summary.json"));
+    EXPECT_GT(summary.number("transfer.landed_momentum_kg_m_s"), 0.0);
+    EXPECT_NEAR(summary.number("trapped_momentum_share"),
+                summary.number("transfer.trapped_momentum_kg_m_s") /
+                    summary.number("transfer.landed_momentum_kg_m_s"),
+                1e-9);
+    EXPECT_LT(summary.number("trapped_momentum_share"), 0.01);
+    EXPECT_NE(result_.output.find("momentum lost to trapping:"), std::string::npos);
+    EXPECT_FALSE(summary.has("release.seconds"));
+}
+
+TEST_F(TinyRun, ReleaseAtEndAddsFramesAndSaysWhatMoved)
+{
+    for (const char* mode : {"surface-flow", "dem"}) {
+        SCOPED_TRACE(mode);
+        const ProgramResult released = call(std::string("run tiny.toml --out ") + mode +
+                                            " --release-at-end 0.1 --mode " + mode);
+        ASSERT_EQ(released.exitCode, 0) << released.errors;
+        const JsonScalars summary(read(std::string(mode) + "/summary.json"));
+        EXPECT_NEAR(summary.number("release.seconds"), 0.1, 1e-9);
+        for (const char* key : {"apex_moved_d", "mean_dh_d", "repose_moved_deg", "fastest_m_s",
+                                "could_fall_m_s"}) {
+            EXPECT_TRUE(summary.has(std::string("release.") + key)) << key;
+        }
+        EXPECT_GT(summary.number("release.could_fall_m_s"), 0.0);
+        // The figures of the run itself are those of its end.
+        EXPECT_EQ(summary.number("frames"), 12);
+        EXPECT_EQ(splitLines(read(std::string(mode) + "/frames.csv")).size(), 16u);
+        EXPECT_TRUE(exists(std::string(mode) + "/frame_000015.inc"));
+        EXPECT_NE(released.output.find("set free for 0.1 s"), std::string::npos);
+    }
+    EXPECT_EQ(JsonScalars(read("surface-flow/summary.json")).text("state_hash"),
+              JsonScalars(read("out/summary.json")).text("state_hash"));
+    for (const char* seconds : {"0", "-1", "soon"}) {
+        EXPECT_EQ(call(std::string("run tiny.toml --out no --release-at-end ") + seconds).exitCode,
+                  2)
+            << seconds;
+    }
+}
+
+TEST_F(TinyRun, ComparesCratersBetweenFrames)
+{
+    for (const char* mode : {"surface-flow", "dem"}) {
+        ASSERT_EQ(call(std::string("run tiny.toml --no-frames --keep-states --out ") + mode +
+                       " --mode " + mode)
+                      .exitCode,
+                  0);
+    }
+    const JsonScalars json(
+        call("compare surface-flow dem --frame 11 --since 6 --json").output);
+    for (const char* key : {"a.depth_m", "a.volume_m3", "b.depth_m", "depth_d"}) {
+        EXPECT_TRUE(json.has(std::string("crater.") + key)) << key;
+    }
+    EXPECT_NE(call("compare surface-flow dem --since 6").output.find("sunk since frame 6"),
+              std::string::npos);
+    const ProgramResult missing = call("compare out out --frame 5");
+    EXPECT_EQ(missing.exitCode, 2) << "its states were not kept";
+}
+
 }  // namespace
 }  // namespace sandflow

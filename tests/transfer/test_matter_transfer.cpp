@@ -245,5 +245,38 @@ TEST(MatterTransfer, ReleaseAllMakesEveryGrainMobile)
     EXPECT_TRUE(s.dem.listsHold());
 }
 
+TEST(MatterTransfer, AllSandInAnImpactZoneIsSetFree)
+{
+    State s;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> across(0.0, kWidth), up(0.005, 0.155);
+    for (std::uint32_t id = 0; id < 2000; ++id) {
+        const double x = across(random), y = across(random), z = up(random);
+        addFrozen(s.dem, Vec3(x, y, z), id);
+    }
+    s.setBed(0.16);
+    s.run();
+    ASSERT_GT(s.buried.size(), 1000u);
+
+    const std::vector<ImpactZone> zones = {{Vec3(0.11, 0.13, 0.16), 0.06}};
+    s.dem.rebuild(0.0, kStep);
+    wakeZones(zones, s.dem);
+    s.transfer.plan(s.columns, s.dem);
+    s.dem.recordContacts();
+    s.transfer.apply(s.columns, s.dem, s.buried, zones);
+    std::size_t freed = 0;
+    for (const auto& [id, known] : collectAll(s)) {
+        const bool isHeld = zones[0].holds(known.position);
+        EXPECT_EQ(s.stateOf(id) == GrainState::mobile, isHeld) << "grain " << id;
+        freed += isHeld ? 1 : 0;
+        // What lies below the zone pushes back.
+        const Vec3 below = known.position - Vec3(0.11, 0.13, 0.1);
+        if (std::hypot(below.x(), below.y()) < 0.01 && below.z() < 0.0 && below.z() > -0.01) {
+            EXPECT_EQ(s.stateOf(id), GrainState::interface);
+        }
+    }
+    EXPECT_GT(freed, 50u);
+}
+
 }  // namespace
 }  // namespace sandflow
