@@ -8,7 +8,7 @@ namespace sandflow {
 /// study starts: after hours of trials is too late.
 void requireGnuplot();
 
-/// Writes `script` to `scriptPath` and runs gnuplot on it; what the script plots lies where it says.
+/// Writes `script` to `scriptPath` and runs gnuplot on it; the picture lies where the script says.
 /// Throws SystemError if gnuplot is missing or does not like the script.
 void plotWithGnuplot(const std::string& scriptPath, const std::string& script);
 

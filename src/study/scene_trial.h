@@ -30,7 +30,7 @@ struct SceneTrial {
     Snapshot last;                    ///< after the last of them; not of a broken trial
     std::uint64_t stateHash = 0;      ///< likewise
     double wallSeconds = 0.0;         ///< of the frames: no set-up, no measuring
-    double processorSeconds = 0.0;    ///< likewise, of all threads; a busy machine changes it little
+    double processorSeconds = 0.0;    ///< likewise, of all threads; steady on a busy machine
 
     bool gaveSand() const { return end == TrialEnd::finished || end == TrialEnd::stopped; }
 };

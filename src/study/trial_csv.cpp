@@ -46,6 +46,30 @@ std::string formatCsvLine(const std::vector<std::string>& fields)
     return line + '\n';
 }
 
+std::vector<std::vector<std::string>> parseCsv(const std::string& text)
+{
+    std::vector<std::vector<std::string>> lines;
+    std::vector<std::string> fields(1);
+    bool quoted = false;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        const char c = text[at];
+        if (quoted && c == '"' && at + 1 < text.size() && text[at + 1] == '"') {
+            fields.back() += c;
+            ++at;
+        } else if (c == '"') {
+            quoted = !quoted;
+        } else if (!quoted && c == ',') {
+            fields.emplace_back();
+        } else if (!quoted && c == '\n') {
+            lines.push_back(std::move(fields));
+            fields.assign(1, "");
+        } else {
+            fields.back() += c;
+        }
+    }
+    return lines;
+}
+
 std::string csvNumber(double number)
 {
     std::string text;

@@ -9,6 +9,10 @@ namespace sandflow {
 /// line break is put in quotes.
 std::string formatCsvLine(const std::vector<std::string>& fields);
 
+/// The fields of each line of a CSV file, as formatCsvLine wrote them. A last line without its line
+/// break, written when the program was ended, is left out.
+std::vector<std::vector<std::string>> parseCsv(const std::string& text);
+
 /// Rows of a study, in the file as soon as append() returns, each by one write at the file's end: a
 /// study that is interrupted keeps what it has found.
 class TrialCsv {
