@@ -22,6 +22,11 @@ double meanOf(const std::vector<double>& values)
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+double secondsOf(const ErrorTrial& trial, StudyClock clock)
+{
+    return clock == StudyClock::wall ? trial.wallSeconds : trial.processorSeconds;
+}
+
 /// One number of a trial for each seed.
 using BySeed = std::map<std::uint64_t, double>;
 
@@ -38,7 +43,8 @@ std::vector<double> valuesOf(const BySeed& bySeed)
 struct TrialGroup {
     ErrorSetting setting;
     std::vector<const ErrorTrial*> trials;
-    BySeed cost, error;  ///< of those that finished; cost relative to the default's
+    BySeed cost, error;         ///< of those that finished; cost relative to the default's
+    bool sameAsDefault = true;  ///< every one that finished
 };
 
 std::vector<TrialGroup> groupTrials(const std::vector<ErrorTrial>& trials)
@@ -49,9 +55,8 @@ std::vector<TrialGroup> groupTrials(const std::vector<ErrorTrial>& trials)
             return g.setting.approximation == trial.setting.approximation &&
                    g.setting.value == trial.setting.value;
         });
-        TrialGroup& group = found != groups.end() ? *found
-                                                  : groups.emplace_back(TrialGroup{trial.setting,
-                                                                                   {}, {}, {}});
+        TrialGroup& group = found != groups.end() ? *found : groups.emplace_back();
+        group.setting = trial.setting;
         group.trials.push_back(&trial);
     }
     return groups;
@@ -90,12 +95,12 @@ SettingFigures makeFigures(const TrialGroup& group, StudyClock clock)
         if (trial->end != TrialEnd::finished) {
             figures.message = figures.failed++ == 0 ? trial->message : figures.message;
         } else if (group.cost.count(trial->seed) > 0) {
-            seconds.push_back(clock == StudyClock::wall ? trial->wallSeconds
-                                                        : trial->processorSeconds);
+            seconds.push_back(secondsOf(*trial, clock));
             errors.push_back(trial->errors);
         }
     }
-    figures.finished = seconds.size();
+    figures.finished = group.cost.size();
+    figures.sameAsDefault = group.sameAsDefault;
     if (figures.finished > 0) {
         const std::vector<double> values = valuesOf(group.error);
         figures.seconds = medianOf(seconds);
@@ -137,7 +142,7 @@ std::optional<ChoiceNoise> estimateNoise(const std::vector<TrialGroup>& groups, 
     std::vector<BySeed> logCosts;
     std::vector<const BySeed*> errors, costs;
     for (const TrialGroup& group : groups) {
-        if (group.error.size() == seeds) {
+        if (group.error.size() == seeds && !group.sameAsDefault) {
             errors.push_back(&group.error);
             logCosts.push_back(group.cost);
             for (auto& [seed, cost] : logCosts.back()) {
@@ -161,12 +166,12 @@ std::vector<ApproximationVerdict> judge(const std::vector<SettingFigures>& setti
     std::vector<ApproximationVerdict> verdicts;
     const CostAndError shipped{settings.front().cost, settings.front().error};
     for (std::size_t k = 1; k < settings.size(); ++k) {
-        if (!settings[k].counts()) {
-            continue;
-        }
         const std::string& name = settings[k].setting.approximation;
         if (verdicts.empty() || verdicts.back().approximation != name) {
             verdicts.push_back({name, std::nullopt, false});
+        }
+        if (!settings[k].counts()) {
+            continue;
         }
         ApproximationVerdict& verdict = verdicts.back();
         const CostAndError other{settings[k].cost, settings[k].error};
@@ -197,22 +202,120 @@ double measureOf(const HeapErrors& errors, ErrorMeasure measure)
     return measure == ErrorMeasure::radial ? errors.radial : errors.cells;
 }
 
-/// Time of the default for each seed that also has a reference.
-BySeed findDefaultTimes(const std::vector<ErrorTrial>& trials, StudyClock clock)
+/// True if both did the same, step by step, as far as a row can tell. The heaps may differ by what
+/// the places of buried grains are rounded to, which moves no figure by so much as this.
+bool didTheSame(const ErrorTrial& a, const ErrorTrial& b)
 {
-    BySeed times;
+    constexpr double kRounding = 1e-5;  // d, deg or %
+    const auto areClose = [](double x, double y) { return std::abs(x - y) <= kRounding; };
+    const HeapErrors& ea = a.errors;
+    const HeapErrors& eb = b.errors;
+    return a.steps == b.steps && a.grainSteps == b.grainSteps && areClose(ea.radial, eb.radial) &&
+           areClose(ea.cells, eb.cells) && areClose(ea.apex, eb.apex) && areClose(ea.r90, eb.r90) &&
+           areClose(ea.reposeDeg.value_or(0.0), eb.reposeDeg.value_or(0.0));
+}
+
+/// The trials of one seed in their order, and what the default takes at each place in it.
+class SeedTrials {
+public:
+    void add(const ErrorTrial& trial) { trials_.push_back(&trial); }
+
+    /// False if the default or the reference did not finish.
+    bool complete() const
+    {
+        return defaultTrial() != nullptr &&
+               std::any_of(trials_.begin(), trials_.end(), [](const ErrorTrial* t) {
+                   return t->isReference() && t->end == TrialEnd::finished;
+               });
+    }
+
+    /// The first that finished.
+    const ErrorTrial* defaultTrial() const
+    {
+        const auto found = std::find_if(trials_.begin(), trials_.end(), [](const ErrorTrial* t) {
+            return t->isDefault() && t->end == TrialEnd::finished;
+        });
+        return found == trials_.end() ? nullptr : *found;
+    }
+
+    /// Time of the trial over what the default would have taken in its place.
+    double costOf(const ErrorTrial& trial, StudyClock clock) const
+    {
+        const auto place = std::find(trials_.begin(), trials_.end(), &trial) - trials_.begin();
+        // The nearest pace trials: at or before this place, and at or after it.
+        std::ptrdiff_t before = -1, after = -1;
+        for (std::ptrdiff_t k = 0; k < std::ssize(trials_); ++k) {
+            const ErrorTrial& other = *trials_[static_cast<std::size_t>(k)];
+            if (other.end == TrialEnd::finished && didTheSame(other, *defaultTrial())) {
+                before = k <= place ? k : before;
+                after = k >= place && after < 0 ? k : after;
+            }
+        }
+        before = before < 0 ? after : before;
+        after = after < 0 ? before : after;
+        const auto paceAt = [&](std::ptrdiff_t k) {
+            return secondsOf(*trials_[static_cast<std::size_t>(k)], clock);
+        };
+        const double share = after > before ? static_cast<double>(place - before) /
+                                                  static_cast<double>(after - before)
+                                            : 0.0;
+        return secondsOf(trial, clock) /
+               ((1.0 - share) * paceAt(before) + share * paceAt(after));
+    }
+
+private:
+    std::vector<const ErrorTrial*> trials_;
+};
+
+/// By seed, those that are complete.
+std::map<std::uint64_t, SeedTrials> sortBySeed(const std::vector<ErrorTrial>& trials)
+{
+    std::map<std::uint64_t, SeedTrials> bySeed;
     for (const ErrorTrial& trial : trials) {
-        const bool referenced =
-            std::any_of(trials.begin(), trials.end(), [&](const ErrorTrial& other) {
-                return other.isReference() && other.end == TrialEnd::finished &&
-                       other.seed == trial.seed;
-            });
-        if (trial.isDefault() && trial.end == TrialEnd::finished && referenced) {
-            times[trial.seed] =
-                clock == StudyClock::wall ? trial.wallSeconds : trial.processorSeconds;
+        bySeed[trial.seed].add(trial);
+    }
+    std::erase_if(bySeed, [](const auto& entry) { return !entry.second.complete(); });
+    return bySeed;
+}
+
+/// Puts cost and error of the trials that finished into their groups.
+void fillGroups(const std::map<std::uint64_t, SeedTrials>& bySeed, ErrorMeasure measure,
+                StudyClock clock, std::vector<TrialGroup>& groups)
+{
+    for (TrialGroup& group : groups) {
+        for (const ErrorTrial* trial : group.trials) {
+            const auto seed = bySeed.find(trial->seed);
+            if (trial->end != TrialEnd::finished || seed == bySeed.end()) {
+                continue;
+            }
+            group.cost[trial->seed] = seed->second.costOf(*trial, clock);
+            group.error[trial->seed] = measureOf(trial->errors, measure);
+            group.sameAsDefault =
+                group.sameAsDefault && didTheSame(*trial, *seed->second.defaultTrial());
+        }
+        group.sameAsDefault = group.sameAsDefault && !group.cost.empty() &&
+                              group.setting.approximation != kDefaultSetting;
+    }
+}
+
+/// The front of the settings that count, and its knee.
+void findFront(ErrorEvaluation& evaluation)
+{
+    std::vector<CostAndError> choices;
+    std::vector<std::size_t> settingOf;
+    for (std::size_t k = 0; k < evaluation.settings.size(); ++k) {
+        if (evaluation.settings[k].counts()) {
+            choices.push_back({evaluation.settings[k].cost, evaluation.settings[k].error});
+            settingOf.push_back(k);
         }
     }
-    return times;
+    const std::vector<std::size_t> front = findParetoFront(choices);
+    for (const std::size_t k : front) {
+        evaluation.front.push_back(settingOf[k]);
+    }
+    if (const auto knee = findKnee(choices, front)) {
+        evaluation.knee = settingOf[*knee];
+    }
 }
 
 }  // namespace
@@ -231,37 +334,29 @@ std::string labelOf(const ErrorSetting& setting)
 {
     const bool saysItself =
         setting.approximation == "method" || setting.approximation == "precision";
-    return saysItself              ? setting.value
-           : setting.value.empty() ? setting.approximation
-                                   : setting.approximation + " " + setting.value;
+    const bool needsNoValue =
+        setting.value.empty() || setting.approximation == kReferenceSetting;
+    return saysItself     ? setting.value
+           : needsNoValue ? setting.approximation
+                          : setting.approximation + " " + setting.value;
 }
 
 ErrorEvaluation evaluateErrors(const std::vector<ErrorTrial>& trials,
                                const std::vector<HeapErrors>& referencePairs, ErrorMeasure measure,
                                StudyClock clock)
 {
-    const BySeed defaultTime = findDefaultTimes(trials, clock);
-    if (defaultTime.empty()) {
+    const std::map<std::uint64_t, SeedTrials> bySeed = sortBySeed(trials);
+    if (bySeed.empty()) {
         throw InputError("no seed has both a reference and a default that finished: there is "
                          "nothing to compare");
     }
     std::vector<TrialGroup> groups = groupTrials(trials);
-    for (TrialGroup& group : groups) {
-        for (const ErrorTrial* trial : group.trials) {
-            const auto time = defaultTime.find(trial->seed);
-            if (trial->end == TrialEnd::finished && time != defaultTime.end()) {
-                group.cost[trial->seed] =
-                    (clock == StudyClock::wall ? trial->wallSeconds : trial->processorSeconds) /
-                    time->second;
-                group.error[trial->seed] = measureOf(trial->errors, measure);
-            }
-        }
-    }
+    fillGroups(bySeed, measure, clock, groups);
 
     ErrorEvaluation result;
     result.measure = measure;
     result.clock = clock;
-    for (const auto& [seed, time] : defaultTime) {
+    for (const auto& [seed, trialsOfSeed] : bySeed) {
         result.seeds.push_back(seed);
     }
     const auto takeOut = [&](const char* approximation) {
@@ -286,21 +381,7 @@ ErrorEvaluation evaluateErrors(const std::vector<ErrorTrial>& trials,
     }
     result.noise = estimateNoise(groups, result.seeds.size());
 
-    std::vector<CostAndError> choices;
-    std::vector<std::size_t> settingOf;
-    for (std::size_t k = 0; k < result.settings.size(); ++k) {
-        if (result.settings[k].counts()) {
-            choices.push_back({result.settings[k].cost, result.settings[k].error});
-            settingOf.push_back(k);
-        }
-    }
-    const std::vector<std::size_t> front = findParetoFront(choices);
-    for (const std::size_t k : front) {
-        result.front.push_back(settingOf[k]);
-    }
-    if (const auto knee = findKnee(choices, front)) {
-        result.knee = settingOf[*knee];
-    }
+    findFront(result);
     result.verdicts = judge(result.settings, result.noise.value_or(ChoiceNoise{}));
     return result;
 }

@@ -27,13 +27,15 @@ struct SettingFigures {
     std::size_t finished = 0;  ///< trials that count
     std::size_t failed = 0;    ///< refused or broken: the setting is then on no front
     std::string message;       ///< of the first of those
+    bool sameAsDefault = false;  ///< did the very same with every seed: it costs and errs alike
     double seconds = 0.0;      ///< median
     double cost = 0.0;         ///< median over the seeds of the time over the default's
     double error = 0.0;        ///< d, mean of the measure that counts
     double errorLow = 0.0, errorHigh = 0.0;  ///< d, of its trials
     HeapErrors mean;           ///< every measure; those with a sign keep it
 
-    bool counts() const { return finished > 0 && failed == 0; }
+    /// True if it is a choice of its own beside the default.
+    bool counts() const { return finished > 0 && failed == 0 && !sameAsDefault; }
 };
 
 /// Whether what ships is the best value of one approximation: the setting that beats the default in
@@ -66,6 +68,10 @@ struct ErrorEvaluation {
 
 /// Puts the trials of a study together. `referencePairs` are references of different seeds against
 /// each other. Throws InputError if no seed has both a reference and a default that finished.
+///
+/// A trial's time is set against what the default would have taken at its place in the order of the
+/// trials: on the straight line between the trials before and after it that did the very same as
+/// the default (the default's own repeats, and settings without effect on this scene).
 ///
 /// The noise is what is left of the trials' errors when each setting's mean and each seed's common
 /// shift are taken out (two-way layout without interaction), of the settings that have every seed.

@@ -21,9 +21,12 @@ std::string nameOf(StudyClock clock)
     return clock == StudyClock::wall ? "wall" : "processor";
 }
 
-/// Where a setting stands: "front", "front, knee" or "".
+/// Where a setting stands: "front", "front, knee", "same as default" or "".
 std::string standingOf(const ErrorEvaluation& evaluation, std::size_t setting)
 {
+    if (evaluation.settings[setting].sameAsDefault) {
+        return "same as default";
+    }
     if (!evaluation.onFront(setting)) {
         return "";
     }

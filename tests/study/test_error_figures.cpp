@@ -74,6 +74,43 @@ TEST(ErrorFigures, TimesAreRatiosOfTheSameSeed)
     EXPECT_DOUBLE_EQ(evaluation.reference.cost, 50.0);
 }
 
+/// The machine slows down by a tenth of its first pace from trial to trial: the default's repeat at
+/// the end shows it, and the ratios are those of an even machine.
+TEST(ErrorFigures, TimesFollowThePaceBetweenRepeatsOfTheDefault)
+{
+    std::vector<ErrorTrial> trials = makeStudy();
+    trials.resize(trials.size() / 2);
+    trials.push_back(makeTrial(kDefaultSetting, "", 1, 10.0, 0.30));
+    for (std::size_t k = 1; k < trials.size(); ++k) {
+        trials[k].wallSeconds *= 1.0 + 0.1 * static_cast<double>(k - 1);
+    }
+    const ErrorEvaluation evaluation = evaluate(trials);
+    EXPECT_DOUBLE_EQ(evaluation.settings.front().cost, 1.0);
+    EXPECT_DOUBLE_EQ(figuresOf(evaluation, "dem").cost, 4.0);
+    EXPECT_DOUBLE_EQ(figuresOf(evaluation, "R_min 3 d").cost, 1.4);
+    EXPECT_DOUBLE_EQ(figuresOf(evaluation, "gamma 400 /s").cost, 0.9);
+    EXPECT_DOUBLE_EQ(evaluation.reference.cost, 50.0);  // before the first: its pace
+    EXPECT_EQ(evaluation.settings.front().finished, 1u);
+}
+
+TEST(ErrorFigures, ASettingThatDoesTheSameIsNoChoiceOfItsOwn)
+{
+    std::vector<ErrorTrial> trials = makeStudy();
+    for (const std::uint64_t seed : {1u, 2u}) {  // slower by chance only
+        trials.push_back(makeTrial("interface", "3 d", seed, 12.0, seed == 1 ? 0.30 : 0.32));
+    }
+    const ErrorEvaluation evaluation = evaluate(trials);
+    const SettingFigures& same = figuresOf(evaluation, "interface 3 d");
+    EXPECT_TRUE(same.sameAsDefault);
+    EXPECT_FALSE(same.counts());
+    EXPECT_DOUBLE_EQ(same.cost, 1.0);
+    EXPECT_FALSE(evaluation.settings.front().sameAsDefault);
+    EXPECT_EQ(evaluation.verdicts.back().approximation, "interface");
+    EXPECT_FALSE(evaluation.verdicts.back().better.has_value());
+    EXPECT_NE(scriptOfSweeps(evaluation, "", "p.png").find("\"interface (3 d: as default)\""),
+              std::string::npos);
+}
+
 TEST(ErrorFigures, ErrorsAreMeansThatKeepTheirSign)
 {
     const SettingFigures shipped = evaluate(makeStudy()).settings.front();
@@ -214,7 +251,7 @@ TEST(ErrorPlot, ShowsFrontKneeAndDefault)
     for (const char* part : {"$front", "$knee", "$shipped", "\"R_min 3 d\"", "\"a title\""}) {
         EXPECT_NE(script.find(part), std::string::npos) << part;
     }
-    EXPECT_NE(script.find("$shipped << EOD\n1 0.31 0.3 0.32 \"default\"\nEOD\n"),
+    EXPECT_NE(script.find("$shipped << EOD\n1 0.31 0.3 0.32 \"\"\nEOD\n"),
               std::string::npos)
         << script;
 }
