@@ -159,7 +159,7 @@ std::vector<SweepPanel> makePanels(const ErrorEvaluation& evaluation)
     return panels;
 }
 
-/// Its values with their names, those of the cheaper ones to the left, away from the default's mark.
+/// Its values with their names, to the left of the cheaper ones: away from the default's mark.
 std::string scriptOfPanel(const SweepPanel& panel)
 {
     std::string plots;
