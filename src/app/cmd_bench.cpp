@@ -1,3 +1,4 @@
+#include "app/bench_error.h"
 #include "app/bench_kernel.h"
 #include "app/commands.h"
 #include "app/environment.h"
@@ -124,6 +125,7 @@ void addBenchCommand(CLI::App& app, Action& action)
     kernel->add_flag("--json", options->json, "Print JSON");
     kernel->callback(
         [options, &action] { action = [options] { return runKernelBench(*options); }; });
+    addErrorBench(*command, action);
 }
 
 }  // namespace sandflow

@@ -16,12 +16,12 @@
 #include "measure/release.h"
 #include "scene/read_scene.h"
 #include "scene/write_scene.h"
+#include "solids/resolve_meshes.h"
 #include "solver/simulation.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 
 namespace sandflow {
 namespace {
@@ -72,17 +72,6 @@ void printPlan(const Scene& scene, const RunPlan& plan)
     fmt::print("  stiffness {:.4g}: {}\n", plan.law.stiffness, plan.stiffness.reason);
     fmt::print("  step {:.3g} s (bound {:.3g} s): {}\n", plan.step.step, plan.step.bound,
                plan.step.reason);
-}
-
-/// The scene as it was run: its meshes are named so that they are found from the run folder too.
-Scene resolveMeshes(Scene scene, const SolidSet& solids)
-{
-    for (const MeshSolid& mesh : solids.meshes()) {
-        SolidSpec& solid = scene.solids[static_cast<std::size_t>(mesh.solid)];
-        solid.mesh = std::filesystem::absolute(mesh.file).string();
-        solid.standIn.clear();
-    }
-    return scene;
 }
 
 /// Frames that `seconds` take, the last one perhaps longer.
