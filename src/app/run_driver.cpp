@@ -70,11 +70,17 @@ void printPlan(const Scene& scene, const RunPlan& plan)
     fmt::print("  stiffness {:.4g}: {}\n", plan.law.stiffness, plan.stiffness.reason);
     fmt::print("  step {:.3g} s (bound {:.3g} s): {}\n", plan.step.step, plan.step.bound,
                plan.step.reason);
+    if (scene.mode == Mode::surfaceFlow) {
+        fmt::print("  {}\n", plan.repose.reason);
+    }
 }
 
-/// The scene as it was run: its meshes are named so that they are found from the run folder too.
-Scene resolveMeshes(Scene scene, const SolidSet& solids)
+/// The scene as it was run: with the slopes that were used, and its meshes named so that they are
+/// found from the run folder too.
+Scene resolveScene(Scene scene, const RunPlan& plan, const SolidSet& solids)
 {
+    scene.surfaceFlow.reposeAngle = plan.repose.angle;
+    scene.surfaceFlow.reposeMargin = plan.repose.margin;
     for (const MeshSolid& mesh : solids.meshes()) {
         SolidSpec& solid = scene.solids[static_cast<std::size_t>(mesh.solid)];
         solid.mesh = std::filesystem::absolute(mesh.file).string();
@@ -116,7 +122,7 @@ ExitCode runScene(const RunOptions& options)
     for (const std::string& notice : sand->solids().notices()) {
         fmt::print(stderr, "note: {}\n", notice);
     }
-    writeFileAtomically(folder.scenePath(), writeScene(resolveMeshes(scene, sand->solids())));
+    writeFileAtomically(folder.scenePath(), writeScene(resolveScene(scene, plan, sand->solids())));
     const std::vector<SceneMesh> meshes = copyMeshes(sand->solids(), !options.noFrames);
     if (!options.noFrames) {
         writePovScene(folder.path(), findPovrayFolder(), scene,
