@@ -4,13 +4,13 @@
 # angles of repose are averaged. Writes src/scene/repose_measurements.inc, or the file named.
 #
 #   scripts/measure_repose.sh [FILE]
-#   WORK=/tmp/repose JOBS=2 scripts/measure_repose.sh     # stopped, it goes on where it was
+#   WORK=angles JOBS=2 scripts/measure_repose.sh     # stopped, it goes on where it was
 #
 # GRAINS (8000) a heap, SEEDS ("1 2 3"), FRICTION and ROLLING (the table's values), JOBS (all
 # processors) heaps at a time, one thread each; SANDFLOW (the executable; built if not given); SET
 # ("KEY=VALUE ...", other values for scene keys, to see what the angle depends on); WORK (a folder
 # to keep the angles in, angles.csv; else it is removed). About 20 s of processor time a heap.
-# Exit code: 0 done, 2 wrong usage, 4 a run failed or a heap has no flank to measure.
+# Exit code: 0 done, 2 wrong usage or settings, 4 a run failed or a heap has no flank to measure.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 table=${1:-$root/src/scene/repose_measurements.inc}
@@ -40,7 +40,8 @@ else
 fi
 
 # A thin slow jet onto an endless rough floor. All else is default.
-cat >"$work/heap.toml" <<EOF
+cat >"$work/heap.new" <<EOF
+# ${SET:-nothing else set}
 name = "heap"
 mode = "dem"
 
@@ -55,11 +56,16 @@ position = [0, 0, 0.35]
 radius = 0.05
 speed = 1.3
 EOF
+if [ -f "$work/heap.toml" ] && ! cmp -s "$work/heap.toml" "$work/heap.new"; then
+    echo "measure_repose.sh: $work holds angles of other heaps; give WORK another folder" >&2
+    exit 2
+fi
+mv "$work/heap.new" "$work/heap.toml"
 
 # measure FRICTION ROLLING SEED: adds "friction,rolling,seed,angle" to angles.csv.
 measure()
 {
-    local run=$work/$1-$2-$3 set=() change
+    local run=$work/$1-$2-$3 set=() change angle
     if grep -q "^$1,$2,$3," "$work/angles.csv"; then
         return
     fi
@@ -71,8 +77,12 @@ measure()
         echo "measure_repose.sh: $1, $2, seed $3: $(tail -1 "$run.log")" >&2
         return 4
     }
-    awk -v key="$1,$2,$3" '/"repose_deg":/ { gsub(/[",]/, ""); print key "," $2 }' \
-        "$run/summary.json" >>"$work/angles.csv"
+    angle=$(awk '/"repose_deg":/ { gsub(/,/, ""); print $2 }' "$run/summary.json")
+    [[ $angle =~ ^[0-9.]+$ ]] || {
+        echo "measure_repose.sh: $1, $2, seed $3: the heap has no flank to measure" >&2
+        return 4
+    }
+    echo "$1,$2,$3,$angle" >>"$work/angles.csv"
     rm -rf "$run" "$run.log"
 }
 
@@ -90,7 +100,7 @@ for seed in "${seeds[@]}"; do  # one whole table after the other
     done
 done
 wait
-if [ -f "$work/failed" ] || grep ',null$' "$work/angles.csv" >&2; then
+if [ -f "$work/failed" ]; then
     echo "measure_repose.sh: no table was written" >&2
     exit 4
 fi
