@@ -67,7 +67,8 @@ void checkReach(const SceneSource& source, double wanted, const Role& role)
         source.fail(
             {kTarget, role.given},
             fmt::format("is {}, but with {} = {} heaps stand at {} degrees ({} {}), "
-                        "expected one of these or another {} (any from {} gives {} degrees)",
+                        "expected an angle in that range or another {}: with {}, heaps of "
+                        "{} degrees can be had",
                         formatShortest(wanted), role.given, formatShortest(role.value),
                         formatInterval(role.reach), role.solved,
                         formatInterval(role.solvedMeasured), role.given,

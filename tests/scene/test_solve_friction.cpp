@@ -73,8 +73,8 @@ TEST(SolveFriction, RefusesAnglesOutOfReachAndSaysWhatIsInReach)
                           "contact.friction = 0.2 heaps stand at " +
                           fmt::format("{:.4g} to {:.4g} degrees", reach.low, reach.high)))
         << steep;
-    EXPECT_NE(steep.find("expected one of these or another contact.friction (any from 0.1 to 1 "
-                         "gives "),
+    EXPECT_NE(steep.find("expected an angle in that range or another contact.friction: with 0.1 "
+                         "to 1, heaps of "),
               std::string::npos)
         << steep;
     const std::string flat =
