@@ -102,6 +102,10 @@ std::string formatJson(const Scene& scene, const CheckReport& report)
     json.member("step_s", plan.step.step).member("bound_s", plan.step.bound);
     json.member("reason", plan.step.reason);
     json.member("per_frame", plan.framePeriod / plan.step.step).endObject();
+    json.key("repose").beginObject();
+    json.member("expected_deg", plan.repose.expected).member("measured", plan.repose.measured);
+    json.member("theta0_deg", plan.repose.neutralSlope());
+    json.member("reason", plan.repose.reason).endObject();
     json.key("costs").beginObject();
     json.member("grain_steps", report.costs.grainSteps);
     json.member("memory_bytes", report.costs.memoryBytes);
@@ -150,6 +154,10 @@ std::string formatText(const Scene& scene, const CheckReport& report)
     text += fmt::format("step       {:.3g} s, {:.0f} a frame; bound {:.3g} s set by {}\n",
                         plan.step.step, plan.framePeriod / plan.step.step, plan.step.bound,
                         plan.step.reason);
+    text += fmt::format("repose     {}\n", plan.repose.material);
+    if (scene.mode == Mode::surfaceFlow) {
+        text += fmt::format("           {}\n", plan.repose.reason);
+    }
     text += fmt::format(
         "costs      about {} of memory ({:.0f} bytes a computed grain, {:.0f} a buried one), {} of "
         "picture files; {:.2g} grain-steps if none were skipped\n",

@@ -72,12 +72,23 @@ void printPlan(const Scene& scene, const RunPlan& plan)
     fmt::print("  stiffness {:.4g}: {}\n", plan.law.stiffness, plan.stiffness.reason);
     fmt::print("  step {:.3g} s (bound {:.3g} s): {}\n", plan.step.step, plan.step.bound,
                plan.step.reason);
+    if (scene.mode == Mode::surfaceFlow) {
+        fmt::print("  {}\n", plan.repose.reason);
+    }
 }
 
 /// Frames that `seconds` take, the last one perhaps longer.
 std::uint64_t countFrames(double seconds, double framePeriod)
 {
     return static_cast<std::uint64_t>(std::ceil(seconds / framePeriod - 1e-9));
+}
+
+/// The scene as it was run, but for its meshes: with the slopes that were used.
+Scene resolveSlopes(Scene scene, const RunPlan& plan)
+{
+    scene.surfaceFlow.reposeAngle = plan.repose.angle;
+    scene.surfaceFlow.reposeMargin = plan.repose.margin;
+    return scene;
 }
 
 /// For the picture; none if there is no picture.
@@ -115,7 +126,8 @@ ExitCode runScene(const RunOptions& options)
     for (const std::string& notice : sand->solids().notices()) {
         fmt::print(stderr, "note: {}\n", notice);
     }
-    writeFileAtomically(folder.scenePath(), writeScene(resolveMeshes(scene, sand->solids())));
+    writeFileAtomically(folder.scenePath(),
+                        writeScene(resolveMeshes(resolveSlopes(scene, plan), sand->solids())));
     const std::vector<SceneMesh> meshes = copyMeshes(sand->solids(), !options.noFrames);
     if (!options.noFrames) {
         writePovScene(folder.path(), findPovrayFolder(), scene,

@@ -86,6 +86,7 @@ public:
     std::vector<std::string> find()
     {
         doubtContact();
+        doubtNeutralSlope();
         doubtTime();
         for (std::size_t s = 0; s < scene_.solids.size(); ++s) {
             doubtSolid(s);
@@ -115,6 +116,25 @@ private:
         }
         if (contact.friction == 0.0) {
             doubt("contact.friction = 0: no heap will stand, the sand runs out like a liquid");
+        }
+    }
+
+    void doubtNeutralSlope()
+    {
+        const ReposeReport& repose = plan_.repose;
+        if (scene_.mode != Mode::surfaceFlow) {
+            return;
+        }
+        if (!scene_.surfaceFlow.reposeAngle && !repose.measured) {
+            doubt("surface_flow.repose_angle is auto, but {}; give a number of degrees",
+                  repose.material);
+        }
+        if (repose.neutralSlope() < repose.expected) {
+            doubt(
+                "sand settles only on slopes below {:.4g} degrees (surface_flow.repose_angle + "
+                "repose_margin), but heaps of this material stand at {:.1f}: their flanks erode "
+                "for ever and more sand stays mobile than need be; raise one of the two",
+                repose.neutralSlope(), repose.expected);
         }
     }
 

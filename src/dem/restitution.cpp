@@ -1,14 +1,13 @@
 #include "dem/restitution.h"
 
 #include "core/errors.h"
+#include "core/find_root.h"
+#include "core/quiet_gsl.h"
 
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
-#include <gsl/gsl_roots.h>
 
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <memory>
 
@@ -19,45 +18,6 @@ namespace {
 constexpr double kStepTolerance = 1e-12;
 constexpr double kCreep = 1e-9;  ///< in L and V: a pair this close and slow never rebounds
 constexpr int kMaxSteps = 200000;
-constexpr int kMaxRootSteps = 200;
-
-/// GSL aborts the process on an error unless told not to. Restored on leaving, so that this file
-/// does not decide for the rest of the program.
-class QuietGsl {
-public:
-    QuietGsl() : previous_(gsl_set_error_handler_off()) {}
-    ~QuietGsl() { gsl_set_error_handler(previous_); }
-    QuietGsl(const QuietGsl&) = delete;
-    QuietGsl& operator=(const QuietGsl&) = delete;
-
-private:
-    gsl_error_handler_t* previous_;
-};
-
-/// Root of f in [low, high] by Brent's method, to the last bits; f must change sign there.
-double findRoot(const std::function<double(double)>& f, double low, double high)
-{
-    const QuietGsl quiet;
-    std::unique_ptr<gsl_root_fsolver, decltype(&gsl_root_fsolver_free)> solver(
-        gsl_root_fsolver_alloc(gsl_root_fsolver_brent), &gsl_root_fsolver_free);
-    SAND_CHECK(solver != nullptr, "no memory for a root solver");
-    gsl_function function;
-    function.function = [](double x, void* context) {
-        return (*static_cast<const std::function<double(double)>*>(context))(x);
-    };
-    function.params = const_cast<std::function<double(double)>*>(&f);
-    SAND_CHECK(gsl_root_fsolver_set(solver.get(), &function, low, high) == GSL_SUCCESS,
-               "no sign change between {} and {}", low, high);
-    for (int i = 0; i < kMaxRootSteps; ++i) {
-        SAND_CHECK(gsl_root_fsolver_iterate(solver.get()) == GSL_SUCCESS, "Brent failed");
-        const double a = gsl_root_fsolver_x_lower(solver.get());
-        const double b = gsl_root_fsolver_x_upper(solver.get());
-        if (gsl_root_test_interval(a, b, 0.0, 1e-13) == GSL_SUCCESS) {
-            break;
-        }
-    }
-    return gsl_root_fsolver_root(solver.get());
-}
 
 /// Right-hand side of the collision, y = {x, x'}.
 struct Motion {

@@ -68,6 +68,16 @@ std::string formatValue(const std::optional<double>& value, const AutoRange&)
     return value ? formatFloat(*value) : "\"auto\"";
 }
 
+std::string formatValue(double value, const SolvedRange&)
+{
+    return formatFloat(value);
+}
+
+std::string formatValue(const std::optional<double>&, const TargetRange&)
+{
+    return "";
+}
+
 std::string formatValue(const std::optional<double>& value, const OptionalRange&)
 {
     return value ? formatFloat(*value) : "";

@@ -28,6 +28,8 @@ inline constexpr std::string_view kBareKeyLetters =
 std::string formatValue(double value, const Range& rule);
 std::string formatValue(double value, const OpenRange& rule);
 std::string formatValue(const std::optional<double>& value, const AutoRange& rule);
+std::string formatValue(double value, const SolvedRange& rule);
+std::string formatValue(const std::optional<double>& value, const TargetRange& rule);
 std::string formatValue(const std::optional<double>& value, const OptionalRange& rule);
 std::string formatValue(std::int64_t value, const IntegerRange& rule);
 std::string formatValue(std::uint64_t value, const IntegerRange& rule);

@@ -17,6 +17,16 @@ std::string quoteKey(const std::string& name)
     return isBareKey(name) ? name : formatValue(name, Text{});
 }
 
+/// True for the word "auto"; any other string is refused.
+bool saysAuto(const ValueSite& site)
+{
+    const auto* word = site.node.as_string();
+    if (word != nullptr && word->get() != "auto") {
+        site.refuse(formatValue(word->get(), Text{}));
+    }
+    return word != nullptr;
+}
+
 template <class Vector>
 void readVector(const ValueSite& site, Vector& value, const Range& rule)
 {
@@ -87,13 +97,22 @@ void readValue(const ValueSite& site, double& value, const OpenRange& rule)
 
 void readValue(const ValueSite& site, std::optional<double>& value, const AutoRange& rule)
 {
-    if (const auto* word = site.node.as_string()) {
-        if (word->get() != "auto") {
-            site.refuse(formatValue(word->get(), Text{}));
-        }
+    if (saysAuto(site)) {
         value.reset();
-        return;
+    } else {
+        readValue(site, value.emplace(), rule.range);
     }
+}
+
+void readValue(const ValueSite& site, double& value, const SolvedRange& rule)
+{
+    if (!saysAuto(site)) {
+        readValue(site, value, rule.range);
+    }
+}
+
+void readValue(const ValueSite& site, std::optional<double>& value, const TargetRange& rule)
+{
     readValue(site, value.emplace(), rule.range);
 }
 

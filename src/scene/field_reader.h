@@ -28,6 +28,8 @@ struct ValueSite {
 void readValue(const ValueSite& site, double& value, const Range& rule);
 void readValue(const ValueSite& site, double& value, const OpenRange& rule);
 void readValue(const ValueSite& site, std::optional<double>& value, const AutoRange& rule);
+void readValue(const ValueSite& site, double& value, const SolvedRange& rule);
+void readValue(const ValueSite& site, std::optional<double>& value, const TargetRange& rule);
 void readValue(const ValueSite& site, std::optional<double>& value, const OptionalRange& rule);
 void readValue(const ValueSite& site, std::int64_t& value, const IntegerRange& rule);
 void readValue(const ValueSite& site, std::uint64_t& value, const IntegerRange& rule);

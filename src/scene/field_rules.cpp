@@ -32,6 +32,16 @@ std::string describeRule(const AutoRange& rule)
     return "\"auto\" or " + describeRule(rule.range);
 }
 
+std::string describeRule(const SolvedRange& rule)
+{
+    return "\"auto\" or " + describeRule(rule.range);
+}
+
+std::string describeRule(const TargetRange& rule)
+{
+    return describeRule(rule.range);
+}
+
 std::string describeRule(const OptionalRange& rule)
 {
     return describeRule(rule.range);

@@ -24,6 +24,17 @@ struct AutoRange {
     Range range;
 };
 
+/// A number, or the word "auto" for one that is solved from another key when the scene is read.
+struct SolvedRange {
+    Range range;
+};
+
+/// A number from which others are solved when the scene is read (an empty optional if there is
+/// none). They are written, it is not: together they would say the same thing twice.
+struct TargetRange {
+    Range range;
+};
+
 /// A number or vector whose key may be absent (an empty optional).
 struct OptionalRange {
     Range range;
@@ -58,6 +69,8 @@ using Choices = std::span<const Choice<Value>>;
 std::string describeRule(const Range& rule);
 std::string describeRule(const IntegerRange& rule);
 std::string describeRule(const AutoRange& rule);
+std::string describeRule(const SolvedRange& rule);
+std::string describeRule(const TargetRange& rule);
 std::string describeRule(const OptionalRange& rule);
 std::string describeRule(const OpenRange& rule);
 std::string describeRule(const Flag& rule);

@@ -3,6 +3,7 @@
 #include "scene/field_reader.h"
 #include "scene/scene_checks.h"
 #include "scene/shape_fields.h"
+#include "scene/solve_friction.h"
 
 #include <fmt/format.h>
 
@@ -142,6 +143,7 @@ Scene buildScene(const SceneSource& source)
         }
     });
 
+    solveFriction(source, scene.contact);
     checkScene(scene, [&](const std::vector<std::string>& keys, const std::string& problem) {
         source.fail(keys, problem);
     });

@@ -31,6 +31,8 @@ struct ContactSpec {
     bool clipAttraction = true;           ///< never pull at separation (dry sand)
     double friction = 0.5;                ///< Coulomb coefficient mu
     double rollingFriction = 0.1;         ///< mu_r: torque cap mu_r R* Fn; 0 turns rolling off
+    std::optional<double> reposeAngle;    ///< degrees; the reader has solved one of the two above
+                                          ///< for it. A record, nothing else reads it
     double tangentialRatio = 2.0 / 7.0;   ///< kt / kn
     double tangentialDamping = 0.2;       ///< tangential dashpot over normal dashpot
     std::optional<double> stiffness;      ///< kn, N/m, linear law; absent = auto
@@ -53,7 +55,9 @@ struct SurfaceFlowSpec {
     double interval = 0.02;              ///< s between evaluations of steps 1 and 2
     double cellSize = 3.0;               ///< d, edge of a column
     double exchangeRate = 100.0;         ///< gamma, 1/(s rad)
-    double reposeAngle = 36.0;           ///< theta0, degrees
+    std::optional<double> reposeAngle = 36.0;  ///< degrees; absent = auto, that of the material
+    std::optional<double> reposeMargin;  ///< degrees, theta0 = reposeAngle + it; absent = auto:
+                                         ///< see repose_angle.h
     SlopeForm slopeForm = SlopeForm::angle;
     std::optional<double> saturationDepth;  ///< xi, d; absent: the exchange grows with all of R
     double minFlowDepth = 2.0;           ///< R_min, d

@@ -1,6 +1,7 @@
 #include "scene/scene_checks.h"
 
 #include "scene/field_format.h"
+#include "scene/repose_angle.h"
 #include "scene/scene_choices.h"
 #include "scene/scene_limits.h"
 
@@ -45,6 +46,17 @@ void checkContact(const ContactSpec& contact, const SceneComplaint& complain)
     if (linear && contact.youngModulus) {
         complain({"contact.young_modulus", "contact.law"},
                  "does not belong to law = \"linear\", expected stiffness with this law");
+    }
+}
+
+void checkNeutralSlope(const Scene& scene, const SceneComplaint& complain)
+{
+    const ReposeReport repose = reportRepose(scene);
+    if (!limits::kSlope.contains(repose.neutralSlope())) {
+        complain({"surface_flow.repose_margin", "surface_flow.repose_angle"},
+                 fmt::format("makes the neutral slope {:.4g} + {:.4g} degrees, expected a sum "
+                             "above 0 and below 90",
+                             repose.angle, repose.margin));
     }
 }
 
@@ -142,6 +154,7 @@ void checkScene(const Scene& scene, const SceneComplaint& complain)
     checkGravity(scene, complain);
     checkBox("domain", scene.domain.min, scene.domain.max, complain);
     checkContact(scene.contact, complain);
+    checkNeutralSlope(scene, complain);
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
         checkSolid(fmt::format("solids[{}]", i), scene.solids[i], complain);
     }

@@ -61,11 +61,17 @@ void visitFields(T& contact, Visitor& visit)
           contact.restitution, limits::kRestitution);
     visit(Key{"clip_attraction", "", "Never pull while two grains part, as dry sand."},
           contact.clipAttraction, Flag{});
-    visit(Key{"friction", "", "Coulomb's coefficient of sliding friction."}, contact.friction,
-          limits::kFriction);
+    visit(Key{"friction", "",
+              "Coulomb's coefficient of sliding friction; auto: solved for repose_angle."},
+          contact.friction, SolvedRange{limits::kFriction});
     visit(Key{"rolling_friction", "",
-              "Largest rolling torque over (effective radius x normal force); 0 turns it off."},
-          contact.rollingFriction, limits::kFriction);
+              "Largest rolling torque over (effective radius x normal force), 0 turns it off; "
+              "auto: solved for repose_angle."},
+          contact.rollingFriction, SolvedRange{limits::kFriction});
+    visit(Key{"repose_angle", "degrees",
+              "Slope at which a poured heap shall stand; rolling_friction is solved for it, or "
+              "friction if that is auto or only rolling_friction is given."},
+          contact.reposeAngle, TargetRange{limits::kSlope});
     visit(Key{"tangential_ratio", "", "Tangential over normal stiffness."}, contact.tangentialRatio,
           limits::kTangentialRatio);
     visit(Key{"tangential_damping", "", "Tangential over normal damping."},
@@ -108,8 +114,13 @@ void visitFields(T& flow, Visitor& visit)
     visit(Key{"exchange_rate", "1/(s rad)",
               "How fast flowing sand erodes or settles for each radian off the angle of repose."},
           flow.exchangeRate, limits::kExchangeRate);
-    visit(Key{"repose_angle", "degrees", "Slope at which the flow neither erodes nor settles."},
-          flow.reposeAngle, limits::kSlope);
+    visit(Key{"repose_angle", "degrees",
+              "With repose_margin, the slope at which the flow neither erodes nor settles; auto: "
+              "where heaps of this friction and rolling friction stand."},
+          flow.reposeAngle, AutoRange{limits::kSlope});
+    visit(Key{"repose_margin", "degrees",
+              "Added to repose_angle; auto: 0 to a number, 8 where that is auto."},
+          flow.reposeMargin, AutoRange{limits::kReposeMargin});
     visit(Key{"slope_form", "", "Exchange in proportion to the slope's angle or to its tangent."},
           flow.slopeForm, Choices<SlopeForm>(words::kSlopeForms));
     visit(Key{"saturation_depth", "grain diameters",

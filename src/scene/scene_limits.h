@@ -78,6 +78,7 @@ inline constexpr Range kInterval{0.0, 10.0, true};
 inline constexpr Range kCellSize{1.0, 20.0};
 inline constexpr Range kExchangeRate{0.0, 1e5};
 inline constexpr Range kSlope{0.0, 90.0, true, true};
+inline constexpr Range kReposeMargin{-45.0, 45.0};
 inline constexpr Range kDepth{0.0, 100.0};
 // Thinner than one grain the interface would let mobile grains through to the buried ones.
 inline constexpr Range kInterfaceThickness{1.0, 100.0};

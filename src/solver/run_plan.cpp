@@ -40,6 +40,7 @@ RunPlan planRun(const Scene& scene, std::span<const Eigen::AlignedBox3d> meshBou
     plan.law = makeContactCoefficients(scene, plan.load, plan.stiffness);
     plan.step = stableStep(plan.law, plan.load, scene.contact.maxOverlap * scene.grains.radius,
                            scene.time.stepSafety, scene.time.step);
+    plan.repose = reportRepose(scene);
     plan.framePeriod = 1.0 / scene.time.framesPerSecond;
     const double end = scene.time.duration ? *scene.time.duration
                                            : lastEmissionTime(scene) + scene.time.settle;

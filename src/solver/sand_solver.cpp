@@ -33,12 +33,12 @@ DemSetup demSetup(const Scene& scene, const SolidSet& solids, const RunPlan& pla
     return setup;
 }
 
-BcreParams bcreParams(const Scene& scene)
+BcreParams bcreParams(const Scene& scene, const RunPlan& plan)
 {
     const SurfaceFlowSpec& spec = scene.surfaceFlow;
     BcreParams params;
     params.exchangeRate = spec.exchangeRate;
-    params.reposeAngle = spec.reposeAngle * kPi / 180.0;
+    params.reposeAngle = plan.repose.neutralSlope() * kPi / 180.0;
     params.slopeForm = spec.slopeForm;
     params.saturationDepth = spec.saturationDepth.value_or(0.0) * scene.diameter();
     params.minFlowDepth = spec.minFlowDepth * scene.diameter();
@@ -96,7 +96,7 @@ SandSolver<Real>::SandSolver(const Scene& scene)
           [this](const Vec2& a, const Vec2& b, double lo, double hi) {
               return solids_.partsColumns(time_, a, b, lo, hi);
           }),
-      bcre_(bcreParams(scene)),
+      bcre_(bcreParams(scene, plan_)),
       rest_(makeRestRules(scene.surfaceFlow)),
       transfer_(transferParams(scene)),
       creep_(creepParams(scene)),

@@ -2,6 +2,7 @@
 
 #include "dem/contact_coefficients.h"
 #include "grains/snapshot.h"
+#include "scene/repose_angle.h"
 #include "scene/scene.h"
 #include "solids/solid_set.h"
 #include "transfer/matter_transfer.h"
@@ -49,6 +50,7 @@ struct RunPlan {
     StiffnessReport stiffness;
     StepReport step;              ///< at the load expected
     LoadCase load;
+    ReposeReport repose;
     std::uint64_t grains = 0;
     double endTime = 0.0;         ///< s
     std::uint64_t frames = 0;

@@ -79,6 +79,40 @@ TEST_F(Check, OverridesCount)
     EXPECT_EQ(json.number("frames"), 30);
 }
 
+TEST_F(Check, SaysHowSteepTheSandStandsAndWhereTheta0ComesFrom)
+{
+    writeTinyScene("tiny.toml");
+    const ProgramResult given = call("check tiny.toml");
+    for (const char* part : {"repose     heaps of friction 0.5 and rolling friction 0.1 stand at",
+                             "theta0 36 degrees: 36 from surface_flow.repose_angle, 0 added"}) {
+        EXPECT_NE(given.output.find(part), std::string::npos) << part << "\n" << given.output;
+    }
+    EXPECT_EQ(call("check tiny.toml --mode dem").output.find("theta0"), std::string::npos);
+
+    const JsonScalars soft(
+        call("check tiny.toml --json --set surface_flow.repose_angle=auto "
+             "--set contact.repose_angle=25").output);
+    EXPECT_NEAR(soft.number("repose.expected_deg"), 25.0, 1e-9);
+    EXPECT_NEAR(soft.number("repose.theta0_deg"), 33.0, 1e-9);
+    EXPECT_EQ(soft.text("repose.measured"), "true");
+    EXPECT_FALSE(soft.has("doubts[0]"));
+
+    const ProgramResult steep = call("check tiny.toml --set contact.repose_angle=60");
+    EXPECT_EQ(steep.exitCode, 2);
+    EXPECT_NE(steep.errors.find("heaps stand at"), std::string::npos) << steep.errors;
+}
+
+TEST_F(Check, DoubtsASlopeThatTheSandCannotHave)
+{
+    const std::string sound = kFloor + spout("10", "100", "[0, 0, 0.1]");
+    EXPECT_NE(doubtsOf(sound, "--set surface_flow.repose_angle=25").find("erode for ever"),
+              std::string::npos);
+    EXPECT_NE(doubtsOf(sound, "--set surface_flow.repose_angle=auto --set contact.friction=4")
+                  .find("were not measured"),
+              std::string::npos);
+    EXPECT_EQ(doubtsOf(sound, "--set contact.friction=4"), "");
+}
+
 TEST_F(Check, RefusesWhatCannotRun)
 {
     writeTinyScene("tiny.toml");

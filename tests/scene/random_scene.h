@@ -99,7 +99,8 @@ private:
         flow.interval = number(0, 1);
         flow.cellSize = number(1, 20);
         flow.exchangeRate = number(0, 1e5);
-        flow.reposeAngle = number(0, 89);
+        flow.reposeAngle = maybe(0, 44);
+        flow.reposeMargin = maybe(0, 45);
         flow.slopeForm = chance() ? SlopeForm::tangent : SlopeForm::angle;
         flow.saturationDepth = maybe(0.1, 9);
         flow.minFlowDepth = number(0, 9);

@@ -47,6 +47,7 @@ inline void expectSame(const SurfaceFlowSpec& a, const SurfaceFlowSpec& b)
     expectSameBits(a.cellSize, b.cellSize);
     expectSameBits(a.exchangeRate, b.exchangeRate);
     expectSameBits(a.reposeAngle, b.reposeAngle);
+    expectSameBits(a.reposeMargin, b.reposeMargin);
     EXPECT_EQ(a.slopeForm, b.slopeForm);
     expectSameBits(a.saturationDepth, b.saturationDepth);
     expectSameBits(a.minFlowDepth, b.minFlowDepth);

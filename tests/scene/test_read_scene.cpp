@@ -23,6 +23,8 @@ TEST(ReadScene, AbsentKeysKeepTheDefaultsOfTheModel)
     EXPECT_FALSE(scene.time.duration.has_value());
     EXPECT_FALSE(scene.time.step.has_value());
     EXPECT_EQ(scene.surfaceFlow.reposeAngle, 36.0);
+    EXPECT_FALSE(scene.surfaceFlow.reposeMargin.has_value());
+    EXPECT_FALSE(scene.contact.reposeAngle.has_value());
     EXPECT_TRUE(scene.skip.sleep);
     EXPECT_TRUE(scene.solids.empty());
     EXPECT_FALSE(scene.camera.position.has_value());
@@ -69,6 +71,7 @@ interval = 0.03
 cell_size = 4
 exchange_rate = 50
 repose_angle = 30
+repose_margin = 5.5
 slope_form = "tangent"
 saturation_depth = 2.5
 min_flow_depth = 3
@@ -121,6 +124,7 @@ angle = 40
     EXPECT_EQ(scene.surfaceFlow.cellSize, 4.0);
     EXPECT_EQ(scene.surfaceFlow.exchangeRate, 50.0);
     EXPECT_EQ(scene.surfaceFlow.reposeAngle, 30.0);
+    EXPECT_EQ(scene.surfaceFlow.reposeMargin, 5.5);
     EXPECT_EQ(scene.surfaceFlow.slopeForm, SlopeForm::tangent);
     EXPECT_EQ(scene.surfaceFlow.saturationDepth, 2.5);
     EXPECT_EQ(scene.surfaceFlow.minFlowDepth, 3.0);

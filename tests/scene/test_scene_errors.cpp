@@ -100,12 +100,12 @@ TEST(SceneErrors, ValuesOutOfRangeSayTheRange)
         {"open end", "[contact]\nrestitution = 0\n" + kJet,
          "s.toml:2:15: contact.restitution: is 0, expected a number above 0 and up to 1"},
         {"above", "[contact]\nfriction = 10.5\n" + kJet,
-         "s.toml:2:12: contact.friction: is 10.5, expected a number from 0 to 10"},
+         "s.toml:2:12: contact.friction: is 10.5, expected \"auto\" or a number from 0 to 10"},
         {"open end above", "[grains]\nsize_spread = 0.67\n" + kJet,
          "s.toml:2:15: grains.size_spread: is 0.67, expected a number from 0 to below 0.67"},
         {"both ends open", "[surface_flow]\nrepose_angle = 90\n" + kJet,
-         "s.toml:2:16: surface_flow.repose_angle: is 90, expected a number above 0 and below 90 "
-         "degrees"},
+         "s.toml:2:16: surface_flow.repose_angle: is 90, expected \"auto\" or a number above 0 "
+         "and below 90 degrees"},
         {"nan", "[grains]\ndensity = nan\n" + kJet,
          "s.toml:2:11: grains.density: is not a number (nan), expected a number from 1 to 50000 "
          "kg/m3"},
@@ -189,6 +189,9 @@ TEST(SceneErrors, ValuesThatDoNotGoTogether)
         {"floor", kJet + box + "floor = true\n",
          "s.toml:12:9: solids[0].floor: is true, but only a hollow solid has a floor (hollow = "
          "true)"},
+        {"neutral slope", "[surface_flow]\nrepose_angle = 60\nrepose_margin = 30\n" + kJet,
+         "s.toml:3:17: surface_flow.repose_margin: makes the neutral slope 60 + 30 degrees, "
+         "expected a sum above 0 and below 90"},
         {"gravity", "gravity = [0, -9.81, 0]\n" + kJet,
          "s.toml:1:11: gravity: does not point down, expected a negative z in mode "
          "\"surface-flow\""},

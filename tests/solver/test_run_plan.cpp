@@ -52,6 +52,18 @@ TEST(RunPlan, SaysWhereItsNumbersComeFrom)
     EXPECT_LT(plan.load.deepestColumn, 0.3);
 }
 
+TEST(RunPlan, TheNeutralSlopeMayBeTheMaterials)
+{
+    Scene scene = makePour(100, Mode::surfaceFlow);
+    scene.surfaceFlow.reposeAngle = 31.5;
+    EXPECT_EQ(planRun(scene).repose.neutralSlope(), 31.5);
+    scene.surfaceFlow.reposeAngle.reset();
+    const ReposeReport sand = planRun(scene).repose;
+    EXPECT_EQ(sand.neutralSlope(), sand.expected + kAutoReposeMargin);
+    scene.contact.friction = 0.1;
+    EXPECT_LT(planRun(scene).repose.neutralSlope(), sand.neutralSlope() - 5.0);
+}
+
 TEST(RunPlan, CountsSinglesOfTheirOwnSize)
 {
     Scene scene = makePour(100, Mode::dem);
