@@ -18,9 +18,10 @@ namespace {
 constexpr double kOrifices[] = {8.0, 11.0, 15.0};  // d
 constexpr double kEmptyAnnulus = 1.4;              // k of Beverloo's law (unconfirmed: 1.3 to 1.6)
 
-constexpr double kOpens = 0.2;      // s: until then the sand takes up its own weight
-constexpr double kSteadyFrom = 0.3; // s after the opening
-constexpr double kSteadyTo = 0.9;   // s after the opening
+constexpr double kOpens = 0.2;       // s: until then the sand takes up its own weight
+constexpr double kSteadyFrom = 0.3;  // s after the opening
+constexpr double kShortest = 0.6;    // s of outflow measured, and at least
+constexpr double kFewest = 2500.0;   // grains: the count of a third of them is good to 2 or 3 %
 
 /// A mesh is covered with particles of a quarter of d; a grain rests about a third of its radius
 /// above the surface, so the clear hole is that much narrower all around. The particles' tops reach
@@ -33,13 +34,23 @@ double binWidth(double orifice)
     return std::max(2.5 * orifice, orifice + 30.0);  // d
 }
 
+/// When to stop, s after the opening: kFewest grains should have passed by Beverloo's law.
+double steadyTo(double orifice)
+{
+    const double d = Scene{}.diameter();
+    const double perVolume = 0.6 / (kPi / 6.0);  // grains per d^3
+    const double expected = 0.55 * perVolume * std::sqrt(kGravity / d) *
+                            std::pow(orifice - kEmptyAnnulus, 2.5);
+    return kSteadyFrom + std::max(kShortest, kFewest / expected);
+}
+
 Scene makeBin(Mode mode, double orifice, std::uint64_t seed)
 {
     Scene scene = makeSandScene("discharge", mode, seed);
     const double d = scene.diameter();
     const double half = 0.5 * binWidth(orifice) * d;
     const double depth = (1.2 * binWidth(orifice) + 3.0) * d;
-    scene.time.duration = kOpens + kSteadyTo;
+    scene.time.duration = kOpens + steadyTo(orifice);
     scene.time.framesPerSecond = 60.0;
     scene.domain.min.z() = -4.0 * d;  // half of it is below the bottom
 
@@ -134,8 +145,9 @@ DischargeResult measureDischarge(Mode mode, double orifice, std::uint64_t seed)
     });
     std::filesystem::remove(scene.solids.front().mesh);
     const double grainMass = scene.grains.density / countGrains(scene, 1.0, 1.0);
-    const double rate = fitRate(out.outflow, kSteadyFrom, kSteadyTo);
-    const double third = (kSteadyTo - kSteadyFrom) / 3.0;
+    const double end = steadyTo(orifice);
+    const double rate = fitRate(out.outflow, kSteadyFrom, end);
+    const double third = (end - kSteadyFrom) / 3.0;
     for (int k = 0; k < 3; ++k) {
         const double from = kSteadyFrom + third * k;
         const double part = fitRate(out.outflow, from - 1e-9, from + third + 1e-9);
