@@ -16,7 +16,7 @@ constexpr double kHalfPlate = 0.45;      // m
 constexpr double kHalfBox = 0.5;         // m
 constexpr double kThickness = 0.2;       // m, between the glass walls
 constexpr double kOpens = 0.3;           // s
-constexpr double kDuration = 6.0;        // s
+constexpr double kDuration = 12.0;       // s: Lethe measures from 10 s on
 constexpr std::int64_t kGrains = 52000;
 
 // Lethe fits its angles over these distances from the middle.
@@ -107,28 +107,32 @@ double fitFlank(const std::vector<double>& profile, double d, double side)
 
 }  // namespace
 
-PlateDischargeResult measurePlateDischarge(Mode mode, double rollingFriction, std::uint64_t seed)
+std::vector<PlateHeap> measurePlateDischarge(Mode mode, double rollingFriction, std::uint64_t seed)
 {
     const Scene scene = makePlateScene(mode, rollingFriction, seed);
-    double exitedLate = 0.0, exited = 0.0;
-    const auto simulation = runToEnd(scene, [&](const Simulation&, const FrameReport& report) {
-        exited = static_cast<double>(report.ledger.exited);
-        if (report.time < kDuration - 0.5) {
-            exitedLate = exited;
+    const auto framesPerHeap = static_cast<std::uint64_t>(scene.time.framesPerSecond);
+    std::vector<PlateHeap> out;
+    std::uint64_t grainsBefore = kGrains;
+    runToEnd(scene, [&](const Simulation& simulation, const FrameReport& report) {
+        if (report.frame % framesPerHeap != 0) {
+            return;
         }
+        const Snapshot snapshot = takeSnapshotOf(simulation);
+        PlateHeap heap;
+        heap.time = report.time;
+        heap.height = measureProfile(snapshot);
+        heap.leftAngle = fitFlank(heap.height, scene.diameter(), -1.0);
+        heap.rightAngle = fitFlank(heap.height, scene.diameter(), 1.0);
+        heap.grains = snapshot.size();
+        heap.outflow = static_cast<double>(grainsBefore - heap.grains);
+        grainsBefore = heap.grains;
+        out.push_back(heap);
     });
-    const Snapshot snapshot = takeSnapshotOf(*simulation);
-    PlateDischargeResult out;
-    out.height = measureProfile(snapshot);
-    out.leftAngle = fitFlank(out.height, scene.diameter(), -1.0);
-    out.rightAngle = fitFlank(out.height, scene.diameter(), 1.0);
-    out.angle = 0.5 * (out.leftAngle + out.rightAngle);
-    out.left = static_cast<double>(snapshot.size());
-    out.lastOutflow = (exited - exitedLate) / 0.5;
+    const PlateHeap& last = out.back();
     tellProgress(fmt::format("mu_r {}, {}, seed {}: {:.2f} degrees ({:.2f}, {:.2f}), {} grains left, "
                              "{:.0f} grains/s at the end",
-                             rollingFriction, nameOf(mode), seed, out.angle, out.leftAngle,
-                             out.rightAngle, out.left, out.lastOutflow));
+                             rollingFriction, nameOf(mode), seed, last.angle(), last.leftAngle,
+                             last.rightAngle, last.grains, last.outflow));
     return out;
 }
 
@@ -146,8 +150,8 @@ std::vector<Verdict> runPlateDischarge(const Settings& settings)
         std::vector<double> dem, flow;
         for (int seed = 1; seed <= settings.seeds; ++seed) {
             const auto s = static_cast<std::uint64_t>(seed);
-            dem.push_back(measurePlateDischarge(Mode::dem, rolling, s).angle);
-            flow.push_back(measurePlateDischarge(Mode::surfaceFlow, rolling, s).angle);
+            dem.push_back(measurePlateDischarge(Mode::dem, rolling, s).back().angle());
+            flow.push_back(measurePlateDischarge(Mode::surfaceFlow, rolling, s).back().angle());
         }
         addBoth(rows, fmt::format("angle on the plate [deg], mu_r {}", rolling), kZhou,
                 {meanOf(dem), meanOf(flow)}, Gate::report);
