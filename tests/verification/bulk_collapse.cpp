@@ -1,13 +1,13 @@
 #include "verification/bulk_collapse.h"
 
+#include "measure/radial_profile.h"
+#include "verification/bulk_sand.h"
+#include "verification/verdict.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "measure/radial_profile.h"
-#include "verification/bulk_sand.h"
-#include "verification/verdict.h"
 
 namespace sandflow::verification {
 namespace {
@@ -19,8 +19,9 @@ struct Regime {
 };
 
 /// The published change of regime of the run-out lies at 1.7 (Lube) or 0.74 (Lajeunesse). The
-/// shallow law is fitted below the former, the tall one above it. 20 grains across L0 are asked for;
-/// tall columns have them across their foot only: at a = 8 twice the radius costs 15 times as much.
+/// shallow law is fitted below the former, the tall one above it. 20 grains across L0 are asked
+/// for; tall columns have them across their foot only: at a = 8 twice the radius costs 15 times as
+/// much.
 const Regime kShallow = {20.0, {0.5, 0.7, 1.0, 1.5}};
 const Regime kTall = {10.0, {2.5, 4.0, 8.0}};
 
@@ -105,8 +106,9 @@ CollapseResult measureCollapse(Mode mode, double aspect, double radius, std::uin
     out.runOut = (radiusHolding(deposit, 0.99) - l0) / l0;
     out.foot = (out.deposit.foot - l0) / l0;
     out.height = out.deposit.apex / l0;
-    tellProgress(fmt::format("a = {:.3g}, {}, seed {}: {} grains, run-out {:.3f} L0, height {:.3f} L0",
-                             out.aspect, nameOf(mode), seed, out.grains, out.runOut, out.height));
+    tellProgress(
+        fmt::format("a = {:.3g}, {}, seed {}: {} grains, run-out {:.3f} L0, height {:.3f} L0",
+                    out.aspect, nameOf(mode), seed, out.grains, out.runOut, out.height));
     return out;
 }
 

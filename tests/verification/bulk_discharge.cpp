@@ -1,14 +1,14 @@
 #include "verification/bulk_discharge.h"
 
+#include "verification/bulk_orifice.h"
+#include "verification/bulk_sand.h"
+#include "verification/verdict.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-
-#include "verification/bulk_orifice.h"
-#include "verification/bulk_sand.h"
-#include "verification/verdict.h"
 
 namespace sandflow::verification {
 namespace {
@@ -39,8 +39,8 @@ double steadyTo(double orifice)
 {
     const double d = Scene{}.diameter();
     const double perVolume = 0.6 / (kPi / 6.0);  // grains per d^3
-    const double expected = 0.55 * perVolume * std::sqrt(kGravity / d) *
-                            std::pow(orifice - kEmptyAnnulus, 2.5);
+    const double expected =
+        0.55 * perVolume * std::sqrt(kGravity / d) * std::pow(orifice - kEmptyAnnulus, 2.5);
     return kSteadyFrom + std::max(kShortest, kFewest / expected);
 }
 
@@ -110,9 +110,8 @@ double measureBulkDensity(const Scene& scene, const Snapshot& snapshot)
 
 double countBelow(const Snapshot& snapshot, double height)
 {
-    return static_cast<double>(
-        std::count_if(snapshot.position.begin(), snapshot.position.end(),
-                      [height](const Vec3& p) { return p.z() < height; }));
+    return static_cast<double>(std::count_if(snapshot.position.begin(), snapshot.position.end(),
+                                             [height](const Vec3& p) { return p.z() < height; }));
 }
 
 /// Grains/s between two times [s] after the opening, from a straight line.
@@ -154,10 +153,10 @@ DischargeResult measureDischarge(Mode mode, double orifice, std::uint64_t seed)
         out.unsteadiness = std::max(out.unsteadiness, std::abs(part / rate - 1.0));
     }
     out.rate = rate * grainMass;
-    tellProgress(fmt::format("D = {:.3g} d, {}, seed {}: {:.4g} grains/s, thirds within {:.2g} %, "
-                             "{:.0f} kg/m3",
-                             orifice, nameOf(mode), seed, rate, 100.0 * out.unsteadiness,
-                             out.bulkDensity));
+    tellProgress(
+        fmt::format("D = {:.3g} d, {}, seed {}: {:.4g} grains/s, thirds within {:.2g} %, "
+                    "{:.0f} kg/m3",
+                    orifice, nameOf(mode), seed, rate, 100.0 * out.unsteadiness, out.bulkDensity));
     return out;
 }
 
@@ -249,8 +248,8 @@ std::vector<Verdict> runDischarge(const Settings& settings)
 }
 
 const Registration kDischarge({"BulkDischarge",
-                               "discharge through a round hole, Beverloo 1961 and Mankoc 2007", true,
-                               runDischarge});
+                               "discharge through a round hole, Beverloo 1961 and Mankoc 2007",
+                               true, runDischarge});
 
 }  // namespace
 }  // namespace sandflow::verification

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "scene/scene.h"
+
 #include <cstdint>
 #include <utility>
 #include <vector>
-
-#include "scene/scene.h"
 
 /// Discharge of a flat-bottomed bin through a round hole.
 namespace sandflow::verification {

@@ -1,13 +1,13 @@
 #include "verification/bulk_orifice.h"
 
+#include "core/vec3.h"
+#include "mesh/write_mesh.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-
-#include "core/vec3.h"
-#include "mesh/write_mesh.h"
 
 namespace sandflow::verification {
 namespace {

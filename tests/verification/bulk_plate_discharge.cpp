@@ -1,22 +1,22 @@
 #include "verification/bulk_plate_discharge.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "measure/height_map.h"
 #include "measure/robust_line.h"
 #include "verification/bulk_sand.h"
 #include "verification/verdict.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 namespace sandflow::verification {
 namespace {
 
-constexpr double kHalfPlate = 0.45;      // m
-constexpr double kHalfBox = 0.5;         // m
-constexpr double kThickness = 0.2;       // m, between the glass walls
-constexpr double kOpens = 0.3;           // s
-constexpr double kDuration = 12.0;       // s: Lethe measures from 10 s on
+constexpr double kHalfPlate = 0.45;  // m
+constexpr double kHalfBox = 0.5;     // m
+constexpr double kThickness = 0.2;   // m, between the glass walls
+constexpr double kOpens = 0.3;       // s
+constexpr double kDuration = 12.0;   // s: Lethe measures from 10 s on
 constexpr std::int64_t kGrains = 52000;
 
 // Lethe fits its angles over these distances from the middle.
@@ -44,17 +44,17 @@ Scene makePlateScene(Mode mode, double rollingFriction, std::uint64_t seed)
     // What has left the plate counts no more: only the heap on it is measured.
     scene.domain.min.z() = -0.1;
 
-    scene.solids.push_back(
-        makeBox("plate", Vec3(-kHalfPlate, -0.01, -0.02), Vec3(kHalfPlate, kThickness + 0.01, 0.0)));
+    scene.solids.push_back(makeBox("plate", Vec3(-kHalfPlate, -0.01, -0.02),
+                                   Vec3(kHalfPlate, kThickness + 0.01, 0.0)));
     SolidSpec walls = makeBox("walls", Vec3(-kHalfBox, 0.0, -0.1), Vec3(kHalfBox, kThickness, 0.6));
     walls.hollow = true;
     scene.solids.push_back(walls);
-    SolidSpec left = makeBox("left outlet", Vec3(-kHalfBox, 0.0, -0.02),
-                             Vec3(-kHalfPlate, kThickness, 0.6));
+    SolidSpec left =
+        makeBox("left outlet", Vec3(-kHalfBox, 0.0, -0.02), Vec3(-kHalfPlate, kThickness, 0.6));
     left.until = kOpens;
     scene.solids.push_back(left);
-    SolidSpec right = makeBox("right outlet", Vec3(kHalfPlate, 0.0, -0.02),
-                              Vec3(kHalfBox, kThickness, 0.6));
+    SolidSpec right =
+        makeBox("right outlet", Vec3(kHalfPlate, 0.0, -0.02), Vec3(kHalfBox, kThickness, 0.6));
     right.until = kOpens;
     scene.solids.push_back(right);
 
@@ -129,10 +129,11 @@ std::vector<PlateHeap> measurePlateDischarge(Mode mode, double rollingFriction, 
         out.push_back(heap);
     });
     const PlateHeap& last = out.back();
-    tellProgress(fmt::format("mu_r {}, {}, seed {}: {:.2f} degrees ({:.2f}, {:.2f}), {} grains left, "
-                             "{:.0f} grains/s at the end",
-                             rollingFriction, nameOf(mode), seed, last.angle(), last.leftAngle,
-                             last.rightAngle, last.grains, last.outflow));
+    tellProgress(
+        fmt::format("mu_r {}, {}, seed {}: {:.2f} degrees ({:.2f}, {:.2f}), {} grains left, "
+                    "{:.0f} grains/s at the end",
+                    rollingFriction, nameOf(mode), seed, last.angle(), last.leftAngle,
+                    last.rightAngle, last.grains, last.outflow));
     return out;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "scene/scene.h"
+
 #include <cstdint>
 #include <vector>
-
-#include "scene/scene.h"
 
 /// Side discharge from a plate, Zhou et al. 2002 as set up by Lethe.
 namespace sandflow::verification {

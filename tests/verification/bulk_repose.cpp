@@ -1,11 +1,11 @@
 #include "verification/bulk_repose.h"
 
+#include "verification/bulk_sand.h"
+#include "verification/verdict.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "verification/bulk_sand.h"
-#include "verification/verdict.h"
 
 namespace sandflow::verification {
 
@@ -99,8 +99,8 @@ std::vector<Verdict> runRepose(const Settings& settings)
 }
 
 const Registration kRepose({"BulkRepose",
-                            "repose of a poured heap against mu and mu_r, trends of Zhou 2001", true,
-                            runRepose});
+                            "repose of a poured heap against mu and mu_r, trends of Zhou 2001",
+                            true, runRepose});
 
 }  // namespace
 }  // namespace sandflow::verification

@@ -98,8 +98,8 @@ void addBoth(std::vector<Verdict>& rows, const std::string& quantity, double exp
 void addBothInRange(std::vector<Verdict>& rows, const std::string& quantity, double low,
                     double high, const BothModes& ours, double tolerance)
 {
-    rows.push_back({quantity + ", dem", std::clamp(ours.dem, low, high), ours.dem, Gate::relative,
-                    tolerance});
+    rows.push_back(
+        {quantity + ", dem", std::clamp(ours.dem, low, high), ours.dem, Gate::relative, tolerance});
     rows.push_back({quantity + ", surface-flow", std::clamp(ours.surfaceFlow, low, high),
                     ours.surfaceFlow, Gate::relative, tolerance});
     rows.push_back({"  surface-flow against dem", ours.dem, ours.surfaceFlow, Gate::report});

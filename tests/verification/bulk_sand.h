@@ -1,13 +1,13 @@
 #pragma once
 
+#include "grains/snapshot.h"
+#include "solver/simulation.h"
+#include "verification/verdict.h"
+
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include "grains/snapshot.h"
-#include "solver/simulation.h"
-#include "verification/verdict.h"
 
 /// What the bulk cases share: sand as scenes have it, runs, fits, and rows of both modes.
 namespace sandflow::verification {
