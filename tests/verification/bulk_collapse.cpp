@@ -149,12 +149,12 @@ void addAspects(std::vector<Verdict>& rows, const Series& dem, const Series& flo
 {
     for (std::size_t k = 0; k < dem.aspect.size(); ++k) {
         // The columns of the modes differ by a diameter or so in height: each is beside the law.
-        const std::string at = fmt::format("at a = {:.2f}", dem.aspect[k]);
-        addBoth(rows, "run-out / Lube's, " + at, 1.0,
+        const std::string at = fmt::format("a = {:.2f}", dem.aspect[k]);
+        addBoth(rows, "run-out / Lube, " + at, 1.0,
                 {dem.runOut[k] / lubeRunOut(dem.aspect[k]),
                  flow.runOut[k] / lubeRunOut(flow.aspect[k])},
                 Gate::report);
-        addBoth(rows, "run-out to H = 1 d / L0, " + at, lubeRunOut(dem.aspect[k]),
+        addBoth(rows, "foot at 1 d / L0, " + at, lubeRunOut(dem.aspect[k]),
                 {dem.foot[k], flow.foot[k]}, Gate::report);
         // Lajeunesse 2004: a up to 0.74, then 0.74.
         addBoth(rows, "height / L0, " + at, std::min(dem.aspect[k], 0.74),
@@ -183,7 +183,7 @@ std::vector<Verdict> runCollapse(const Settings& settings)
             {fitPowerLaw(tallDem.aspect, tallDem.runOut).exponent,
              fitPowerLaw(tallFlow.aspect, tallFlow.runOut).exponent},
             Gate::absolute, 0.07);
-    addBothInRange(rows, "run-out / (sqrt(a) L0), a > 1.7", 1.6, 2.0,
+    addBothInRange(rows, "run-out/sqrt(a)L0, a > 1.7", 1.6, 2.0,
                    {fitPrefactor(tallDem.aspect, tallDem.runOut, 0.5),
                     fitPrefactor(tallFlow.aspect, tallFlow.runOut, 0.5)},
                    0.2);

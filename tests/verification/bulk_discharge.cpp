@@ -233,7 +233,7 @@ std::vector<Verdict> runDischarge(const Settings& settings)
     addBoth(rows, "exponent n, k = 1.4", 2.5, {fitExponent(dem), fitExponent(flow)}, Gate::absolute,
             0.15);
     for (std::size_t k = 0; k < dem.orifice.size(); ++k) {
-        addBoth(rows, fmt::format("unsteadiness of W, D = {} d", dem.orifice[k]), 0.05,
+        addBoth(rows, fmt::format("unsteadiness, D = {} d", dem.orifice[k]), 0.05,
                 {dem.unsteadiness[k], flow.unsteadiness[k]}, Gate::atMost);
     }
     addBoth(rows, "C, n = 2.5 and k = 1.4", 0.58,

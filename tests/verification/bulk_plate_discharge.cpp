@@ -154,10 +154,10 @@ std::vector<Verdict> runPlateDischarge(const Settings& settings)
             dem.push_back(measurePlateDischarge(Mode::dem, rolling, s).back().angle());
             flow.push_back(measurePlateDischarge(Mode::surfaceFlow, rolling, s).back().angle());
         }
-        addBoth(rows, fmt::format("angle on the plate [deg], mu_r {}", rolling), kZhou,
+        addBoth(rows, fmt::format("angle [deg], mu_r {}", rolling), kZhou,
                 {meanOf(dem), meanOf(flow)}, Gate::report);
         if (settings.seeds > 1) {
-            addBoth(rows, fmt::format("  scatter of a run [deg], mu_r {}", rolling), scatterOf(dem),
+            addBoth(rows, fmt::format("scatter [deg], mu_r {}", rolling), scatterOf(dem),
                     {scatterOf(dem), scatterOf(flow)}, Gate::report);
         }
     }

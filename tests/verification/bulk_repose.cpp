@@ -70,7 +70,7 @@ struct ReposeOfBoth {
 void addRise(std::vector<Verdict>& rows, const std::string& what, const ReposeOfBoth& low,
              const ReposeOfBoth& high)
 {
-    addBoth(rows, "rise of repose [deg], " + what, 0.0,
+    addBoth(rows, "rise [deg], " + what, 0.0,
             {high.dem.mean - low.dem.mean, high.flow.mean - low.flow.mean}, Gate::atLeast);
 }
 
@@ -85,11 +85,10 @@ std::vector<Verdict> runRepose(const Settings& settings)
         both.dem = measureRepose(Mode::dem, f.sliding, f.rolling, settings.seeds);
         both.flow = measureRepose(Mode::surfaceFlow, f.sliding, f.rolling, settings.seeds);
         found.push_back(both);
-        const std::string at = fmt::format("mu {}, mu_r {}", f.sliding, f.rolling);
-        addBoth(rows, "repose [deg], " + at, both.dem.mean, {both.dem.mean, both.flow.mean},
+        const std::string at = fmt::format("[deg], mu {}/{}", f.sliding, f.rolling);
+        addBoth(rows, "repose " + at, both.dem.mean, {both.dem.mean, both.flow.mean}, Gate::report);
+        addBoth(rows, "scatter " + at, both.dem.scatter, {both.dem.scatter, both.flow.scatter},
                 Gate::report);
-        addBoth(rows, "  scatter of a pour [deg], " + at, both.dem.scatter,
-                {both.dem.scatter, both.flow.scatter}, Gate::report);
     }
     addRise(rows, "mu 0.2 to 0.5", found[0], found[1]);
     addRise(rows, "mu 0.5 to 0.8", found[1], found[2]);
@@ -99,8 +98,8 @@ std::vector<Verdict> runRepose(const Settings& settings)
 }
 
 const Registration kRepose({"BulkRepose",
-                            "repose of a poured heap against mu and mu_r, trends of Zhou 2001",
-                            true, runRepose});
+                            "repose of a poured heap against mu/mu_r, trends of Zhou 2001", true,
+                            runRepose});
 
 }  // namespace
 }  // namespace sandflow::verification

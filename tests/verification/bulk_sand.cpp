@@ -92,7 +92,7 @@ void addBoth(std::vector<Verdict>& rows, const std::string& quantity, double exp
 {
     rows.push_back({quantity + ", dem", expected, ours.dem, gate, tolerance});
     rows.push_back({quantity + ", surface-flow", expected, ours.surfaceFlow, gate, tolerance});
-    rows.push_back({"  surface-flow against dem", ours.dem, ours.surfaceFlow, Gate::report});
+    rows.push_back({quantity + ", surface-flow:dem", ours.dem, ours.surfaceFlow, Gate::report});
 }
 
 void addBothInRange(std::vector<Verdict>& rows, const std::string& quantity, double low,
@@ -102,12 +102,7 @@ void addBothInRange(std::vector<Verdict>& rows, const std::string& quantity, dou
         {quantity + ", dem", std::clamp(ours.dem, low, high), ours.dem, Gate::relative, tolerance});
     rows.push_back({quantity + ", surface-flow", std::clamp(ours.surfaceFlow, low, high),
                     ours.surfaceFlow, Gate::relative, tolerance});
-    rows.push_back({"  surface-flow against dem", ours.dem, ours.surfaceFlow, Gate::report});
-}
-
-BothModes measureBoth(const std::function<double(Mode)>& measure)
-{
-    return {measure(Mode::dem), measure(Mode::surfaceFlow)};
+    rows.push_back({quantity + ", surface-flow:dem", ours.dem, ours.surfaceFlow, Gate::report});
 }
 
 std::string nameOf(Mode mode)

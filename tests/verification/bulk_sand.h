@@ -44,16 +44,14 @@ struct BothModes {
     double surfaceFlow = 0.0;
 };
 
-/// "<quantity>, dem", "<quantity>, surface-flow", and how the second differs from the first.
+/// "<quantity>, dem", "<quantity>, surface-flow", and "<quantity>, surface-flow:dem": how the
+/// second differs from the first.
 void addBoth(std::vector<Verdict>& rows, const std::string& quantity, double expected,
              const BothModes& ours, Gate gate, double tolerance = 0.0);
 
 /// The same where the experiments leave a range: judged against its nearest point.
 void addBothInRange(std::vector<Verdict>& rows, const std::string& quantity, double low,
                     double high, const BothModes& ours, double tolerance);
-
-/// Calls measure(mode) for both.
-BothModes measureBoth(const std::function<double(Mode)>& measure);
 
 std::string nameOf(Mode mode);
 
