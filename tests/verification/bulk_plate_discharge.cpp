@@ -16,7 +16,7 @@ constexpr double kHalfPlate = 0.45;  // m
 constexpr double kHalfBox = 0.5;     // m
 constexpr double kThickness = 0.2;   // m, between the glass walls
 constexpr double kOpens = 0.3;       // s
-constexpr double kDuration = 12.0;   // s: Lethe measures from 10 s on
+constexpr double kDuration = 10.0;   // s: Lethe measures from then on; at 9 s it is all at rest
 constexpr std::int64_t kGrains = 52000;
 
 // Lethe fits its angles over these distances from the middle.
