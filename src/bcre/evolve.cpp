@@ -125,6 +125,12 @@ void transportFlow(double speed, double dt, ColumnGrid& columns, Workspace& work
     columns.R.swap(work.movedFlow);
 }
 
+/// What of a flowing layer takes part in the exchange: R, or R / (1 + R / xi).
+double exchangingDepth(const BcreParams& params, double R)
+{
+    return params.saturationDepth > 0.0 ? R / (1.0 + R / params.saturationDepth) : R;
+}
+
 /// eqs. (1)-(3): dh/dt = -Gamma, dR/dt = +Gamma, Gamma = gamma R (theta - theta0), span by span.
 void exchangeLayers(const BcreParams& params, double dt, ColumnGrid& columns, Workspace& work)
 {
@@ -144,7 +150,8 @@ void exchangeLayers(const BcreParams& params, double dt, ColumnGrid& columns, Wo
             const double slope = std::sqrt(work.slopes.x[s] * work.slopes.x[s] +
                                            work.slopes.y[s] * work.slopes.y[s]);
             const double steepness = tangent ? slope : std::atan(slope);
-            double eroded = params.exchangeRate * R * (steepness - neutral) * dt;
+            double eroded = params.exchangeRate * exchangingDepth(params, R) *
+                            (steepness - neutral) * dt;
             // The whole change since the start of evolveBcre() stays within +-maxChange, and at
             // most what is there can cross.
             const double changed = columns.dh[s];
@@ -178,9 +185,10 @@ double stableSubstep(const BcreParams& params, const ColumnGrid& columns, double
 {
     const double dx = columns.cellSize();
     double limit = 1e30;
-    // gamma R is the speed at which kinks of h travel uphill.
-    if (params.exchangeRate * deepest > 0.0) {
-        limit = kExchangeCourant * dx / (params.exchangeRate * deepest);
+    // gamma R (saturated: at most gamma xi) is the speed at which kinks of h travel uphill.
+    const double kinkSpeed = params.exchangeRate * exchangingDepth(params, deepest);
+    if (kinkSpeed > 0.0) {
+        limit = kExchangeCourant * dx / kinkSpeed;
     }
     // Through every face at most v_d R leaves, so R stays positive if all faces together give R.
     if (params.transport && params.transportSpeed > 0.0) {
@@ -205,9 +213,10 @@ BcreReport evolveBcre(const BcreParams& params, double dt, ColumnGrid& columns)
 {
     SAND_CHECK(dt >= 0.0 && std::isfinite(dt), "evolution over {} s", dt);
     SAND_CHECK(params.exchangeRate >= 0.0 && params.maxChange >= 0.0 &&
-                   params.transportSpeed >= 0.0,
-               "gamma {}, largest change {} m, v_d {} m/s must not be negative",
-               params.exchangeRate, params.maxChange, params.transportSpeed);
+                   params.transportSpeed >= 0.0 && params.saturationDepth >= 0.0,
+               "gamma {}, largest change {} m, v_d {} m/s, xi {} m must not be negative",
+               params.exchangeRate, params.maxChange, params.transportSpeed,
+               params.saturationDepth);
     const std::size_t count = columns.spanCount();
     BcreReport report;
     Workspace work;

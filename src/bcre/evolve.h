@@ -10,6 +10,9 @@ struct BcreParams {
     double reposeAngle = 0.6283185307179586;  ///< theta0, rad
     SlopeForm slopeForm = SlopeForm::angle;   ///< theta - theta0, or tan(theta) - tan(theta0)
     double minFlowDepth = 0.02;               ///< R_min, m
+    /// xi, m: of a deeper layer only about xi takes part in the exchange (Boutreux, Raphael & de
+    /// Gennes 1998); 0: all of it, as in the paper.
+    double saturationDepth = 0.0;
     double maxChange = 0.003;                 ///< m, largest |dh| of a span in one evolve()
     bool transport = false;                   ///< the v_d dR/dx term of eq. (2)
     double transportSpeed = 0.3;              ///< v_d, m/s

@@ -55,6 +55,7 @@ struct SurfaceFlowSpec {
     double exchangeRate = 100.0;         ///< gamma, 1/(s rad)
     double reposeAngle = 36.0;           ///< theta0, degrees
     SlopeForm slopeForm = SlopeForm::angle;
+    std::optional<double> saturationDepth;  ///< xi, d; absent: the exchange grows with all of R
     double minFlowDepth = 2.0;           ///< R_min, d
     double interfaceThickness = 2.2;     ///< d
     double smoothing = 0.3;              ///< share of the neighbours in H

@@ -112,6 +112,10 @@ void visitFields(T& flow, Visitor& visit)
           flow.reposeAngle, limits::kSlope);
     visit(Key{"slope_form", "", "Exchange in proportion to the slope's angle or to its tangent."},
           flow.slopeForm, Choices<SlopeForm>(words::kSlopeForms));
+    visit(Key{"saturation_depth", "grain diameters",
+              "Of a deeper flow, only about so much erodes or settles; when absent, all of it "
+              "does."},
+          flow.saturationDepth, OptionalRange{limits::kSaturationDepth});
     visit(Key{"min_flow_depth", "grain diameters", "Sand that is always kept moving on top."},
           flow.minFlowDepth, limits::kDepth);
     visit(Key{"interface_thickness", "grain diameters",

@@ -82,6 +82,7 @@ inline constexpr Range kDepth{0.0, 100.0};
 // Thinner than one grain the interface would let mobile grains through to the buried ones.
 inline constexpr Range kInterfaceThickness{1.0, 100.0};
 inline constexpr Range kShare{0.0, 1.0};
+inline constexpr Range kSaturationDepth{0.0, 1000.0, true};
 inline constexpr Range kMaxChange{0.0, 10.0, true};
 inline constexpr Range kTransportSpeed{0.0, 100.0};
 inline constexpr Range kFreezeSpeed{0.0, 1.0};

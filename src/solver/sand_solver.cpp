@@ -39,6 +39,7 @@ BcreParams bcreParams(const Scene& scene)
     params.exchangeRate = spec.exchangeRate;
     params.reposeAngle = spec.reposeAngle * kPi / 180.0;
     params.slopeForm = spec.slopeForm;
+    params.saturationDepth = spec.saturationDepth.value_or(0.0) * scene.diameter();
     params.minFlowDepth = spec.minFlowDepth * scene.diameter();
     params.maxChange = spec.maxChange * scene.diameter();
     params.transport = spec.transport;

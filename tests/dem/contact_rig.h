@@ -7,8 +7,9 @@
 
 #include <cmath>
 
-/// A few spheres, one plane, no neighbour lists: just enough to put the contact law through
-/// collisions with known answers. Symplectic Euler in double.
+/// One sphere, one plane, no neighbour lists: just enough to put the functions of the contact law
+/// through a collision. Symplectic Euler in double. (Published collisions go through the grain
+/// solver itself, see tests/verification.)
 namespace sandflow::rig {
 
 using Real3 = Vec<double>;
@@ -21,10 +22,6 @@ struct Ball {
     Real3 spin;
 
     double inertia() const { return 0.4 * mass * radius * radius; }
-    double kineticEnergy() const
-    {
-        return 0.5 * (mass * dot(velocity, velocity) + inertia() * dot(spin, spin));
-    }
 };
 
 inline Ball makeBall(double radius, double density)
@@ -43,11 +40,6 @@ struct Touch {
     double normalForce = 0.0;  ///< N, now
     double peakOverlap = 0.0;  ///< m
     double peakForce = 0.0;    ///< N
-};
-
-struct Push {
-    Real3 force;
-    Real3 torque;
 };
 
 inline NormalForce<double> evaluateNormalOf(NormalLaw law, const LawNumbers<double>& numbers,
@@ -74,95 +66,54 @@ inline Real3 turnInto(const Real3& spring, const Real3& n)
     return size > 0.0 ? (length(spring) / size) * flat : flat;
 }
 
-/// Adds the contact of a with a partner along n (from a to the partner) to both pushes. A fixed
-/// partner has infinite mass and radius (plane): pass partner = nullptr.
-inline void touch(const ContactCoefficients& law, double dt, const Real3& n, double overlap,
-                  const Ball& a, const Ball* partner, Touch& contact, Push& onA, Push* onPartner)
+/// One step of a ball on the plane z = 0, which has infinite mass and radius. No weight.
+inline void stepOnPlane(const ContactCoefficients& law, Ball& ball, Touch& contact, double dt)
 {
-    contact.overlap = overlap;
+    const Real3 n{0.0, 0.0, -1.0};  // from the ball to the plane
+    Real3 force;
+    Real3 torque;
+    contact.overlap = ball.radius - ball.position.z;
     contact.normalForce = 0.0;
-    if (overlap < 0.0) {
+    if (contact.overlap < 0.0) {
         contact.tangentialSpring = {};
         contact.rollingSpring = {};
-        return;
+    } else {
+        const LawNumbers<double> numbers(law);
+        const Real3 slip = projectOff(ball.velocity, n) + cross(ball.radius * ball.spin, n);
+        const Real3 rollingVelocity = ball.radius * projectOff(ball.spin, n);
+        const double inertia = ball.inertia() + ball.mass * ball.radius * ball.radius;
+
+        const NormalForce<double> normal =
+            evaluateNormalOf(law.law, numbers, contact.overlap, dot(ball.velocity, n), ball.mass,
+                             ball.radius);
+        const Tangential<double> tangential =
+            evaluateTangential(numbers, turnInto(contact.tangentialSpring, n), slip, normal.force,
+                               normal.tangentStiffness, normal.dashpot, dt);
+        const Rolling<double> rolling =
+            evaluateRolling(numbers, turnInto(contact.rollingSpring, n), rollingVelocity,
+                            normal.force, normal.tangentStiffness, ball.radius,
+                            inertia / (ball.radius * ball.radius), dt);
+
+        contact.tangentialSpring = tangential.spring;
+        contact.rollingSpring = rolling.spring;
+        contact.normalForce = normal.force;
+        contact.peakOverlap = std::max(contact.peakOverlap, contact.overlap);
+        contact.peakForce = std::max(contact.peakForce, normal.force);
+        force = tangential.force - normal.force * n;
+        torque = cross(ball.radius * n, tangential.force) + rolling.torque;
     }
-    const LawNumbers<double> numbers(law);
-    const auto pairOf = [](double x, double y) { return x * y / (x + y); };
-    const double mass = partner ? pairOf(a.mass, partner->mass) : a.mass;
-    const double radius = partner ? pairOf(a.radius, partner->radius) : a.radius;
-    const double inertiaA = a.inertia() + a.mass * a.radius * a.radius;
-    const double inertia =
-        partner ? pairOf(inertiaA, partner->inertia()
-                                       + partner->mass * partner->radius * partner->radius)
-                : inertiaA;
-
-    const Real3 relative = partner ? a.velocity - partner->velocity : a.velocity;
-    const Real3 turning = a.radius * a.spin + (partner ? partner->radius * partner->spin : Real3{});
-    const Real3 slip = projectOff(relative, n) + cross(turning, n);
-    const Real3 rollingVelocity =
-        radius * projectOff(partner ? a.spin - partner->spin : a.spin, n);
-
-    const NormalForce<double> normal =
-        evaluateNormalOf(law.law, numbers, overlap, dot(relative, n), mass, radius);
-    const Tangential<double> tangential =
-        evaluateTangential(numbers, turnInto(contact.tangentialSpring, n), slip, normal.force,
-                           normal.tangentStiffness, normal.dashpot, dt);
-    const Rolling<double> rolling =
-        evaluateRolling(numbers, turnInto(contact.rollingSpring, n), rollingVelocity,
-                        normal.force, normal.tangentStiffness, radius,
-                        inertia / (radius * radius), dt);
-
-    contact.tangentialSpring = tangential.spring;
-    contact.rollingSpring = rolling.spring;
-    contact.normalForce = normal.force;
-    contact.peakOverlap = std::max(contact.peakOverlap, overlap);
-    contact.peakForce = std::max(contact.peakForce, normal.force);
-
-    onA.force += tangential.force - normal.force * n;
-    onA.torque += cross(a.radius * n, tangential.force) + rolling.torque;
-    if (onPartner) {
-        onPartner->force += normal.force * n - tangential.force;
-        onPartner->torque += cross(partner->radius * n, tangential.force) - rolling.torque;
-    }
-}
-
-inline void move(Ball& ball, const Push& push, const Real3& gravity, double dt)
-{
-    ball.velocity += dt * (gravity + (1.0 / ball.mass) * push.force);
-    ball.spin += (dt / ball.inertia()) * push.torque;
+    ball.velocity += (dt / ball.mass) * force;
+    ball.spin += (dt / ball.inertia()) * torque;
     ball.position += dt * ball.velocity;
 }
 
-/// One step of a ball on the plane through the origin with unit normal `up`.
-inline void stepOnPlane(const ContactCoefficients& law, Ball& ball, Touch& contact,
-                        const Real3& up, const Real3& gravity, double dt)
-{
-    Push push;
-    touch(law, dt, -up, ball.radius - dot(ball.position, up), ball, nullptr, contact, push,
-          nullptr);
-    move(ball, push, gravity, dt);
-}
-
-/// One step of two balls that may touch each other.
-inline void stepPair(const ContactCoefficients& law, Ball& a, Ball& b, Touch& contact, double dt)
-{
-    const Real3 apart = b.position - a.position;
-    const double distance = length(apart);
-    Push onA;
-    Push onB;
-    touch(law, dt, (1.0 / distance) * apart, a.radius + b.radius - distance, a, &b, contact, onA,
-          &onB);
-    move(a, onA, {}, dt);
-    move(b, onB, {}, dt);
-}
-
-/// Lets a ball that touches the plane z = 0 hit it, without gravity, until it has left. Returns the
-/// seconds of overlap.
+/// Lets a ball that touches the plane z = 0 hit it until it has left. Returns the seconds of
+/// overlap.
 inline double hitPlane(const ContactCoefficients& law, Ball& ball, Touch& contact, double dt)
 {
     double time = 0.0;
     do {
-        stepOnPlane(law, ball, contact, {0.0, 0.0, 1.0}, {}, dt);
+        stepOnPlane(law, ball, contact, dt);
         time += dt;
     } while (ball.position.z < ball.radius);
     return time;

@@ -101,6 +101,7 @@ private:
         flow.exchangeRate = number(0, 1e5);
         flow.reposeAngle = number(0, 89);
         flow.slopeForm = chance() ? SlopeForm::tangent : SlopeForm::angle;
+        flow.saturationDepth = maybe(0.1, 9);
         flow.minFlowDepth = number(0, 9);
         flow.interfaceThickness = number(1, 9);
         flow.smoothing = number(0, 1);

@@ -48,6 +48,7 @@ inline void expectSame(const SurfaceFlowSpec& a, const SurfaceFlowSpec& b)
     expectSameBits(a.exchangeRate, b.exchangeRate);
     expectSameBits(a.reposeAngle, b.reposeAngle);
     EXPECT_EQ(a.slopeForm, b.slopeForm);
+    expectSameBits(a.saturationDepth, b.saturationDepth);
     expectSameBits(a.minFlowDepth, b.minFlowDepth);
     expectSameBits(a.interfaceThickness, b.interfaceThickness);
     expectSameBits(a.smoothing, b.smoothing);

@@ -70,6 +70,7 @@ cell_size = 4
 exchange_rate = 50
 repose_angle = 30
 slope_form = "tangent"
+saturation_depth = 2.5
 min_flow_depth = 3
 interface_thickness = 2.5
 smoothing = 0.1
@@ -119,6 +120,7 @@ angle = 40
     EXPECT_EQ(scene.surfaceFlow.exchangeRate, 50.0);
     EXPECT_EQ(scene.surfaceFlow.reposeAngle, 30.0);
     EXPECT_EQ(scene.surfaceFlow.slopeForm, SlopeForm::tangent);
+    EXPECT_EQ(scene.surfaceFlow.saturationDepth, 2.5);
     EXPECT_EQ(scene.surfaceFlow.minFlowDepth, 3.0);
     EXPECT_EQ(scene.surfaceFlow.interfaceThickness, 2.5);
     EXPECT_EQ(scene.surfaceFlow.smoothing, 0.1);

@@ -28,7 +28,7 @@ struct Verdict {
     double ours = 0.0;                 ///< at a step small enough for the case
     Gate gate = Gate::relative;
     double tolerance = 0.0;
-    double atShippingStep = kNotMeasured;  ///< ours with the step that scenes use, where that applies
+    double atShippingStep = kNotMeasured;  ///< ours with the step that scenes use, if that applies
 
     /// Relative or absolute as the gate says; of report, atMost and atLeast: relative.
     double error() const;
