@@ -58,6 +58,30 @@ public:
         }
     }
 
+    /// visit(position, radius) of every grain whose centre is less than `range` from `centre`.
+    template <class Visit>
+    void visitNear(const Vec3& centre, double range, Visit visit) const
+    {
+        const auto layer = [&](double coordinate) { return lowestLayer(coordinate); };
+        for (std::int32_t k = layer(centre.z() - range); k <= layer(centre.z() + range); ++k) {
+            for (std::int32_t j = layer(centre.y() - range); j <= layer(centre.y() + range); ++j) {
+                for (std::int32_t i = layer(centre.x() - range); i <= layer(centre.x() + range);
+                     ++i) {
+                    const std::uint32_t* at = cellOf_.find(packCellKey(i, j, k));
+                    if (!at) {
+                        continue;
+                    }
+                    for (const Grain& g : cells_[*at].grains) {
+                        const Vec3 position = positionOf(cells_[*at].index, g);
+                        if ((position - centre).squaredNorm() < range * range) {
+                            visit(position, static_cast<double>(g.radius));
+                        }
+                    }
+                }
+            }
+        }
+    }
+
     void clear();
     std::size_t size() const { return count_; }
     std::size_t bytes() const;

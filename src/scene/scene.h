@@ -60,17 +60,17 @@ struct SurfaceFlowSpec {
                                          ///< see repose_angle.h
     SlopeForm slopeForm = SlopeForm::angle;
     std::optional<double> saturationDepth;  ///< xi, d; absent: the exchange grows with all of R
-    double minFlowDepth = 2.0;           ///< R_min, d
+    double minFlowDepth = 1.5;           ///< R_min, d
     double interfaceThickness = 2.2;     ///< d
     double smoothing = 0.3;              ///< share of the neighbours in H
     double maxChange = 0.3;              ///< d, largest |dh| in one interval
     bool transport = false;              ///< v_d dR/dx of eq. 2; off: the grains carry R
     double transportSpeed = 0.3;         ///< v_d, m/s, only with transport
-    double freezeSpeed = 0.004;          ///< m/s, mean over freezeTime
+    double freezeSpeed = 0.02;           ///< m/s, mean over freezeTime
     double freezeTime = 0.08;            ///< s at rest before a supported grain may freeze
     double cagedTime = 0.32;             ///< s at rest after which any caged grain may freeze
-    double buryClearance = 1.6;          ///< d kept between mobile and buried grains
-    double creepDecay = 1.7;             ///< d, over which the bed's creep falls by e; 0: rigid bed
+    double buryClearance = 1.4;          ///< d kept between mobile and buried grains
+    double creepDecay = 1.0;             ///< d, over which the bed's creep falls by e; 0: rigid bed
     double creepDepth = 2.0;             ///< d below the top of the bed where its creep ends
 };
 

@@ -182,7 +182,7 @@ void SandSolver<Real>::separateLayers(double interval, FrameReport& report)
         transfer_.plan(columns_, dem_);
         dem_.recordContacts();
         report.transfer += transfer_.apply(columns_, dem_, buried_, zones);
-        creep_.carry(columns_, interval, dem_);
+        creep_.carry(columns_, interval, buried_, dem_);
     }
     rebuildLists(report);
 }

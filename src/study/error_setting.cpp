@@ -1,6 +1,7 @@
 #include "study/error_setting.h"
 
 #include "core/errors.h"
+#include "scene/repose_angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +33,7 @@ std::vector<Sweep> listSweeps(const Scene& scene)
         {"transfer interval", "surface_flow.interval", " ms", 1e-3, s.interval,
          {5.0, 10.0, 20.0, 34.0}},
         {"gamma", "surface_flow.exchange_rate", " /s", 1.0, s.exchangeRate, {25.0, 100.0, 400.0}},
-        {"theta0", "surface_flow.repose_angle", " deg", 1.0, s.reposeAngle,
+        {"theta0", "surface_flow.repose_angle", " deg", 1.0, reportRepose(scene).neutralSlope(),
          {30.0, 33.0, 36.0, 39.0}},
         {"freeze speed", "surface_flow.freeze_speed", " mm/s", 1e-3, s.freezeSpeed,
          {1.0, 2.0, 4.0, 8.0}},
@@ -40,6 +41,7 @@ std::vector<Sweep> listSweeps(const Scene& scene)
          {40.0, 80.0, 160.0}},
         {"bury clearance", "surface_flow.bury_clearance", " d", 1.0, s.buryClearance,
          {1.0, 1.6, 2.5}},
+        {"bed creep", "surface_flow.creep_decay", " d", 1.0, s.creepDecay, {0.0, 0.7, 1.0, 1.5}},
         {"smoothing", "surface_flow.smoothing", "", 1.0, s.smoothing, {0.0, 0.3, 0.6}},
     };
 }

@@ -32,7 +32,8 @@ BedCreep<Real>::BedCreep(const CreepParams& params)
 {}
 
 template <class Real>
-std::size_t BedCreep<Real>::carry(const ColumnGrid& columns, double interval, Dem<Real>& dem)
+std::size_t BedCreep<Real>::carry(const ColumnGrid& columns, double interval,
+                                  const BuriedGrains& buried, Dem<Real>& dem)
 {
     if (share_ == 0.0) {
         return 0;
@@ -56,7 +57,7 @@ std::size_t BedCreep<Real>::carry(const ColumnGrid& columns, double interval, De
         GrainMemory& memory = dem.mobile().memory[k];
         memory.anchorX += shift.x(), memory.anchorY += shift.y(), memory.anchorZ += shift.z();
     }
-    return parter_.shiftAndPart(shiftOf, kShortestShift * params_.diameter, dem);
+    return parter_.shiftAndPart(shiftOf, kShortestShift * params_.diameter, buried, dem);
 }
 
 template <class Real>

@@ -32,7 +32,8 @@ public:
 
     /// Carries fixed and mobile grains along for `interval` [s]; between Dem::recordContacts() and
     /// Dem::rebuild(). Returns how many fixed grains moved.
-    std::size_t carry(const ColumnGrid& columns, double interval, Dem<Real>& dem);
+    std::size_t carry(const ColumnGrid& columns, double interval, const BuriedGrains& buried,
+                      Dem<Real>& dem);
 
     /// Velocity of the top of the bed [m/s], by span. For tests and diagnostics.
     const std::vector<Vec3>& bedVelocity() const { return velocity_; }

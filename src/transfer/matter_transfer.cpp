@@ -1,6 +1,7 @@
 #include "transfer/matter_transfer.h"
 
 #include "transfer/bed_height.h"
+#include "transfer/part_overlaps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -302,16 +303,17 @@ void MatterTransfer<Real>::uncoverShallowOnes(const ColumnGrid& columns, Dem<Rea
 template <class Real>
 void MatterTransfer<Real>::releaseAll(Dem<Real>& dem, BuriedGrains& buried) const
 {
-    const auto release = [&](const Vec3& position, double radius, std::uint32_t id) {
-        dem.addMobile(position, Vec3::Zero(), Vec3::Zero(), radius, id);
-    };
+    buried.forEach([&](const Vec3& position, double radius, std::uint32_t id) {
+        dem.frozen().add(dem.makeRecord(position, radius, id), {});
+    });
+    buried.clear();
+    OverlapParter<Real>().partAll(dem);
     dem.frozen().removeUnless([&](std::size_t k) {
         const GrainRecord<Real>& g = dem.frozen().record(k);
-        release(positionOf(g), static_cast<double>(g.radius), g.id);
+        dem.addMobile(positionOf(g), Vec3::Zero(), Vec3::Zero(), static_cast<double>(g.radius),
+                      g.id);
         return false;
     });
-    buried.forEach(release);
-    buried.clear();
 }
 
 template class MatterTransfer<float>;

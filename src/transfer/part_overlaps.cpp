@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <numeric>
 
 namespace sandflow {
 namespace {
@@ -12,7 +12,10 @@ constexpr double kRelaxation = 1.3;      // of the mean correction of a grain's 
 constexpr double kAllowed = 0.01;        // of the distance of touching grains: sand at rest has that
 constexpr double kSearchMargin = 0.15;   // of it: neighbours that may come to touch in these rounds
 constexpr double kTouching = 0.02;       // of it: closer than that counts as touching
+constexpr double kSinking = 0.25;         // of its way: how far a grain sinks that is not held
 constexpr int kHolding = 4;              // partners that hold a sphere with friction
+constexpr double kHarmless = 0.06;       // of r: as deep as the most pressed pairs of full DEM at rest
+constexpr int kMostTurns = 40;           // of kRounds each
 constexpr std::uint32_t kObstacle = 0x80000000u;
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
@@ -20,7 +23,8 @@ constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
 template <class Real>
 std::size_t OverlapParter<Real>::shiftAndPart(
-    const std::function<Vec3(const GrainRecord<Real>&)>& shiftOf, double least, Dem<Real>& dem)
+    const std::function<Vec3(const GrainRecord<Real>&)>& shiftOf, double least,
+    const BuriedGrains& buried, Dem<Real>& dem)
 {
     auto& fixed = dem.frozen();
     fixed.sort();
@@ -41,16 +45,56 @@ std::size_t OverlapParter<Real>::shiftAndPart(
     if (moved_.empty()) {
         return 0;
     }
-    listNeighbours(dem);
+    listNeighbours(dem, &buried);
     settle(dem.setup().gravity.normalized());
     part();
     fixed.moveTo(moved_, place_);
     return moved_.size();
 }
 
+template <class Real>
+double OverlapParter<Real>::partAll(Dem<Real>& dem)
+{
+    double deepest = 0.0;
+    for (int turn = 0; turn < kMostTurns; ++turn) {
+        auto& fixed = dem.frozen();
+        fixed.sort();
+        moved_.resize(fixed.size());
+        std::iota(moved_.begin(), moved_.end(), 0u);
+        movedAt_ = moved_;
+        place_.clear();
+        for (const GrainRecord<Real>& g : fixed.records()) {
+            place_.push_back({g.x, g.y, g.z});
+        }
+        listNeighbours(dem, nullptr);
+        deepest = deepestOverlap();
+        if (deepest < kHarmless * dem.setup().meanRadius) {
+            break;
+        }
+        part();
+        fixed.moveTo(moved_, place_);
+    }
+    return deepest;
+}
+
+template <class Real>
+double OverlapParter<Real>::deepestOverlap() const
+{
+    double deepest = 0.0;
+    for (std::size_t m = 0; m < place_.size(); ++m) {
+        for (std::uint32_t n = m == 0 ? 0 : end_[m - 1]; n < end_[m]; ++n) {
+            const Neighbour& other = neighbour_[n];
+            const Vec3& there = other.grain >= kObstacle ? obstacles_[other.grain - kObstacle]
+                                                         : place_[other.grain];
+            deepest = std::max(deepest, other.reach - (place_[m] - there).norm());
+        }
+    }
+    return deepest;
+}
+
 /// From the cells of the places before the shift, which is short.
 template <class Real>
-void OverlapParter<Real>::listNeighbours(const Dem<Real>& dem)
+void OverlapParter<Real>::listNeighbours(const Dem<Real>& dem, const BuriedGrains* buried)
 {
     neighbour_.clear();
     end_.clear();
@@ -80,6 +124,15 @@ void OverlapParter<Real>::listNeighbours(const Dem<Real>& dem)
         };
         look(dem.frozen().cells(), dem.frozen().records(), true);
         look(dem.boundary().cells(), dem.boundary().records(), false);
+        if (buried) {
+            const double range = (static_cast<double>(g.radius) + dem.setup().largestRadius) *
+                                 (1.0 + kSearchMargin);
+            buried->visitNear(before, range, [&](const Vec3& there, double radius) {
+                neighbour_.push_back({kObstacle + static_cast<std::uint32_t>(obstacles_.size()),
+                                      static_cast<double>(g.radius) + radius});
+                obstacles_.push_back(there);
+            });
+        }
         end_.push_back(static_cast<std::uint32_t>(neighbour_.size()));
     }
 }
@@ -89,7 +142,6 @@ void OverlapParter<Real>::listNeighbours(const Dem<Real>& dem)
 template <class Real>
 void OverlapParter<Real>::settle(const Vec3& down)
 {
-    static const double share = getenv("EXP_SETTLE") ? atof(getenv("EXP_SETTLE")) : 0.5;
     const auto count = static_cast<std::int64_t>(place_.size());
     nextPlace_.resize(place_.size());
 #pragma omp parallel for schedule(static)
@@ -104,7 +156,7 @@ void OverlapParter<Real>::settle(const Vec3& down)
         }
         nextPlace_[m] = place_[m];
         if (touching < kHolding) {
-            nextPlace_[m] += share * shift_[m] * down;
+            nextPlace_[m] += kSinking * shift_[m] * down;
         }
     }
     place_.swap(nextPlace_);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/dem.h"
+#include "grains/buried_grains.h"
 
 #include <functional>
 #include <vector>
@@ -16,16 +17,21 @@ public:
     /// Shifts every fixed grain by shiftOf(record) [m] and parts those that moved by more than
     /// `least` from each other and from what did not move. Returns how many moved.
     std::size_t shiftAndPart(const std::function<Vec3(const GrainRecord<Real>&)>& shiftOf,
-                             double least, Dem<Real>& dem);
+                             double least, const BuriedGrains& buried, Dem<Real>& dem);
+
+    /// Parts all fixed grains until none overlap by more than a resting grain may, or it does not
+    /// get better: they are about to be set free. Returns the deepest overlap left, m.
+    double partAll(Dem<Real>& dem);
 
 private:
     struct Neighbour {
         std::uint32_t grain;  ///< index of a moved grain, or kObstacle + index into obstacles_
         double reach;         ///< m, distance at which they just touch
     };
-    void listNeighbours(const Dem<Real>& dem);
+    void listNeighbours(const Dem<Real>& dem, const BuriedGrains* buried);
     void settle(const Vec3& down);
     void part();
+    double deepestOverlap() const;
 
     std::vector<Vec3> place_, nextPlace_;
     std::vector<double> shift_;            ///< m, how far each moved

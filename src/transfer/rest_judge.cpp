@@ -1,7 +1,6 @@
 #include "transfer/rest_judge.h"
 
 #include "dem/contact_law.h"
-#include <cstdlib>
 
 
 namespace sandflow {
@@ -67,14 +66,16 @@ RestForces restForces(const LawNumbers<double>& numbers, const Dem<Real>& dem,
 
 }  // namespace
 
+/// Sand that creeps goes by fits and starts: it is caught in a pause, so that its momentum is not lost.
+constexpr double kSlowShare = 0.25;
+
 RestRules makeRestRules(const SurfaceFlowSpec& spec)
 {
     RestRules rules;
     rules.freezeDistance = spec.freezeSpeed * spec.freezeTime;
     rules.freezeTime = spec.freezeTime;
+    rules.slowSpeed = kSlowShare * spec.freezeSpeed;
     rules.cagedTime = spec.cagedTime;
-    if (getenv("EXP_CONTACTS")) rules.contacts = atoi(getenv("EXP_CONTACTS"));
-    if (getenv("EXP_NET")) rules.netForceShare = atof(getenv("EXP_NET"));
     return rules;
 }
 
@@ -102,6 +103,11 @@ bool isAtRest(const RestRules& rules, const Dem<Real>& dem, std::size_t k)
 {
     // The clock adds up windows in float; what that rounds off must not cost another window.
     const double still = static_cast<double>(dem.mobile().memory[k].stillTime) * (1.0 + 1e-5);
+    const GrainRecord<Real>& g = dem.mobile().record[k];
+    const double speed2 = static_cast<double>(g.vx * g.vx + g.vy * g.vy + g.vz * g.vz);
+    if (speed2 > rules.slowSpeed * rules.slowSpeed) {
+        return false;
+    }
     if (still >= rules.cagedTime) {
         return true;
     }

@@ -10,9 +10,10 @@ namespace sandflow {
 struct RestRules {
     double freezeDistance = 3.2e-4;  ///< m: freezeSpeed x freezeTime
     double freezeTime = 0.08;        ///< s
+    double slowSpeed = 0.001;        ///< m/s, at the moment of freezing: what it has is lost
     double cagedTime = 0.32;         ///< s
-    int contacts = 4;                ///< partners that push, to be frozen after freezeTime
-    double netForceShare = 0.3;      ///< |net force| < this x (weight + load)
+    int contacts = 3;                ///< partners that push, to be frozen after freezeTime
+    double netForceShare = 0.5;      ///< |net force| < this x (weight + load)
     double wakeForceShare = 0.1;     ///< woken when the force on it changed by more than this share
     double wakeWeights = 0.5;        ///< ... plus this many of its own weights
     double impactShare = 3.0;        ///< an interface grain is struck loose by a single contact of

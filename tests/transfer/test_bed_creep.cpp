@@ -56,7 +56,7 @@ struct FlowingBox {
     Vec3 creepFor(BedCreep<float>& creep, double seconds)
     {
         for (double time = 0.0; time < seconds; time += 0.02) {
-            creep.carry(state.columns, 0.02, state.dem);
+            creep.carry(state.columns, 0.02, state.buried, state.dem);
         }
         const auto middle = state.columns.spanAt(0.5 * kWidth, 0.5 * kWidth, kBedTop);
         return creep.bedVelocity()[static_cast<std::size_t>(middle)];
@@ -78,12 +78,12 @@ TEST(BedCreep, ARigidBedAndStillSandStayWhereTheyAre)
     rigid.decay = 0.0;
     FlowingBox flowing(0.01);
     BedCreep<float> none(rigid);
-    EXPECT_EQ(none.carry(flowing.state.columns, 0.02, flowing.state.dem), 0u);
+    EXPECT_EQ(none.carry(flowing.state.columns, 0.02, flowing.state.buried, flowing.state.dem), 0u);
 
     FlowingBox still(0.0);
     const auto before = collectAll(still.state);
     BedCreep<float> creep(creepParams());
-    EXPECT_EQ(creep.carry(still.state.columns, 0.02, still.state.dem), 0u);
+    EXPECT_EQ(creep.carry(still.state.columns, 0.02, still.state.buried, still.state.dem), 0u);
     for (const auto& [id, grain] : collectAll(still.state)) {
         EXPECT_EQ(grain.position, before.at(id).position);
     }
@@ -94,7 +94,7 @@ TEST(BedCreep, CarriesWhatLiesOnTheBedAndDiesOutBelowIt)
     FlowingBox box(0.01);
     BedCreep<float> creep(creepParams());
     const auto before = collectAll(box.state);
-    EXPECT_GT(creep.carry(box.state.columns, 0.02, box.state.dem), 0u);
+    EXPECT_GT(creep.carry(box.state.columns, 0.02, box.state.buried, box.state.dem), 0u);
     const std::uint32_t layer = 24 * 24;
     const std::uint32_t middle = 12 * 24 + 12;
     const auto shiftOf = [&](std::uint32_t height) {
@@ -169,13 +169,13 @@ TEST(OverlapParter, ShearedSandMakesWayForItself)
     OverlapParter<float> parter;
     const auto still = [](const GrainRecord<float>&) -> Vec3 { return Vec3(0.0, 0.0, 1e-9); };
     for (int round = 0; round < 60; ++round) {
-        parter.shiftAndPart(still, 0.0, dem);
+        parter.shiftAndPart(still, 0.0, BuriedGrains(0.03), dem);
     }
     EXPECT_LT(overlapsOf(dem).share, 0.01);
     // Up to a strain of two, in steps as a bed makes them.
     const auto shear = [](const GrainRecord<float>& g) -> Vec3 { return {0.04 * g.z, 0.0, 0.0}; };
     for (int step = 0; step < 50; ++step) {
-        parter.shiftAndPart(shear, 1e-7, dem);
+        parter.shiftAndPart(shear, 1e-7, BuriedGrains(0.03), dem);
     }
     EXPECT_LT(overlapsOf(dem).share, 0.05);
     EXPECT_LT(overlapsOf(dem).largest, 0.3);
@@ -191,7 +191,7 @@ TEST(OverlapParter, WhatDoesNotMoveIsAnObstacle)
     const auto towards = [](const GrainRecord<float>& g) -> Vec3 {
         return g.id == 2 ? Vec3(-0.004, 0.001, 0.0) : Vec3::Zero();
     };
-    EXPECT_EQ(parter.shiftAndPart(towards, 1e-7, dem), 1u);
+    EXPECT_EQ(parter.shiftAndPart(towards, 1e-7, BuriedGrains(0.03), dem), 1u);
     const auto one = static_cast<std::size_t>(frozenIndex(dem, 1));
     const auto two = static_cast<std::size_t>(frozenIndex(dem, 2));
     EXPECT_EQ(positionOf(dem.frozen().record(one)), Vec3::Zero());
