@@ -66,7 +66,7 @@ auto MatterTransfer<Real>::judgeMobile(const ColumnGrid& columns, const Dem<Real
         g.z < bedHeightAt(columns, span, g.x, g.y)) {
         return Fate::trapped;
     }
-    return params_.sleep ? Fate::sleeps : Fate::stays;
+    return params_.sleep && speedOf(g) < params_.rest.sleepSpeed ? Fate::sleeps : Fate::stays;
 }
 
 template <class Real>

@@ -10,7 +10,8 @@ namespace sandflow {
 struct RestRules {
     double freezeDistance = 3.2e-4;  ///< m: freezeSpeed x freezeTime
     double freezeTime = 0.08;        ///< s
-    double slowSpeed = 0.001;        ///< m/s, at the moment of freezing: what it has is lost
+    double slowSpeed = 0.02;         ///< m/s, at the moment of freezing: what it has is lost
+    double sleepSpeed = 0.001;       ///< m/s, likewise of falling asleep in the flowing layer
     double cagedTime = 0.32;         ///< s
     int contacts = 3;                ///< partners that push, to be frozen after freezeTime
     double netForceShare = 0.5;      ///< |net force| < this x (weight + load)
