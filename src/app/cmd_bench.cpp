@@ -1,4 +1,5 @@
 #include "app/bench_kernel.h"
+#include "app/bench_stability.h"
 #include "app/commands.h"
 #include "app/environment.h"
 #include "dem/kernel_target.h"
@@ -124,6 +125,7 @@ void addBenchCommand(CLI::App& app, Action& action)
     kernel->add_flag("--json", options->json, "Print JSON");
     kernel->callback(
         [options, &action] { action = [options] { return runKernelBench(*options); }; });
+    addStabilityBench(*command, action);
 }
 
 }  // namespace sandflow
