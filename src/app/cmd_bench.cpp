@@ -1,5 +1,6 @@
 #include "app/bench_error.h"
 #include "app/bench_kernel.h"
+#include "app/bench_stability.h"
 #include "app/commands.h"
 #include "app/environment.h"
 #include "dem/kernel_target.h"
@@ -126,6 +127,7 @@ void addBenchCommand(CLI::App& app, Action& action)
     kernel->callback(
         [options, &action] { action = [options] { return runKernelBench(*options); }; });
     addErrorBench(*command, action);
+    addStabilityBench(*command, action);
 }
 
 }  // namespace sandflow

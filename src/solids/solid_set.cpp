@@ -7,6 +7,7 @@
 #include "mesh/load_mesh.h"
 #include "mesh/place_mesh.h"
 #include "mesh/sample_cache.h"
+#include "scene/radius_range.h"
 #include "solids/free_intervals.h"
 
 #include <algorithm>
@@ -38,6 +39,15 @@ MeshPlacement placementOf(const SolidSpec& solid)
     place.stand = solid.stand;
     place.point = solid.point;
     return place;
+}
+
+/// In mean radii: kMeshCoverGap, or less where the smallest grain, pressed as deep as the scene allows,
+/// would slip through between the particles (its distance from the three nearest is then the gap).
+double meshCoverGapFor(const Scene& scene)
+{
+    const double smallest = radiusRange(scene).smallest / scene.grains.radius;
+    return std::min(kMeshCoverGap,
+                    kMeshCoverRadius + smallest * (1.0 - scene.contact.maxOverlap));
 }
 
 }  // namespace
@@ -102,7 +112,7 @@ void SolidSet::addMesh(const Scene& scene, std::size_t s)
     SurfaceSamples cover;
     {
         StageClock clock(covering);
-        cover = sampleSurfaceCached(placed, kMeshCoverGap * r, kCoverSeed,
+        cover = sampleSurfaceCached(placed, meshCoverGapFor(scene) * r, kCoverSeed,
                                     defaultSampleCacheFolder());
     }
     MeshColumns columns(placed, slabThickness_);

@@ -14,7 +14,8 @@ namespace sandflow {
 
 /// The particles that cover a mesh, in mean grain radii. With a gap of 0.85 r and particles of half a
 /// radius a grain passes only when pressed to 0.57 of the contact distance of 1.5 r, and it
-/// rests a third of a radius above the surface: too little to be seen.
+/// rests a third of a radius above the surface: too little to be seen. Where the smallest grains are
+/// below half the mean radius the gap is less.
 inline constexpr double kMeshCoverGap = 0.85;
 inline constexpr double kMeshCoverRadius = 0.5;
 

@@ -15,6 +15,19 @@ namespace {
 constexpr double kAccumulatedSpeed = 0.6;  // m/s
 constexpr float kAccumulatedContacts = 2;
 
+/// How far [mean radii] a point of a rough plane may be from its particles: so close that the smallest
+/// grain, pressed as deep as the scene allows, keeps its centre above the plane. Else small grains
+/// would slip through where sizes differ much.
+///
+///   gap^2 = (1 + s - overlap s)^2 - depth^2,  s = smallest / mean radius
+double roughGapFor(const Scene& scene, const RunPlan& plan)
+{
+    const double smallest = plan.load.minRadius / scene.grains.radius;
+    const double reach = 1.0 + smallest * (1.0 - scene.contact.maxOverlap);
+    const double gap = std::sqrt(reach * reach - kRoughCoverDepth * kRoughCoverDepth);
+    return std::min(DemSetup().roughGap, gap);
+}
+
 DemSetup demSetup(const Scene& scene, const SolidSet& solids, const RunPlan& plan)
 {
     DemSetup setup;
@@ -28,6 +41,7 @@ DemSetup demSetup(const Scene& scene, const SolidSet& solids, const RunPlan& pla
         setup.meshCovers.push_back({mesh.from, mesh.until, mesh.cover.points,
                                     kMeshCoverRadius * scene.grains.radius});
     }
+    setup.roughGap = roughGapFor(scene, plan);
     setup.seed = scene.seed;
     setup.judged = scene.mode == Mode::surfaceFlow;
     return setup;

@@ -88,5 +88,26 @@ TEST(SmoothFloor, AGrainRestsExactlyOnIt)
     EXPECT_NEAR(s.position[0].z(), 0.005 - sink, 1e-7);
 }
 
+/// Small grains among large ones, thrown at many places: of the smallest that a scene may hold, none
+/// slips through between the particles of the floor, which are as large as the mean grain.
+TEST(RoughFloorUnderSmallGrains, LetsNoneThrough)
+{
+    for (const double ratio : {2.0, 3.0, 5.0}) {
+        Scene scene = makeThrow(1.0, Mode::dem);
+        for (EmitterSpec& grain : scene.emitters) {
+            grain.grainRadius = 2.0 * scene.grains.radius / (1.0 + ratio);
+        }
+        scene.grains.sizeSpread = (ratio - 1.0) / (ratio + 1.0);
+        std::uint64_t leaks = 0;
+        const auto simulation = run(scene, [&](const Simulation& sim, const FrameReport&) {
+            leaks += sim.countLeaks();
+        });
+        EXPECT_EQ(leaks, 0u) << "sizes " << ratio << " apart";
+        for (const Vec3& p : snapshotOf(*simulation).position) {
+            EXPECT_GT(p.z(), 0.0) << "sizes " << ratio << " apart";
+        }
+    }
+}
+
 }  // namespace
 }  // namespace sandflow

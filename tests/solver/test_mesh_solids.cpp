@@ -133,6 +133,27 @@ TEST(MeshSolids, TheSameFaceInTwoOrTwoThousandTrianglesThrowsGrainsBackAlike)
     RecordProperty("height_r", std::to_string(two.height / kRadius));
 }
 
+/// The particles of a mesh are as large as half the mean grain; the smallest grain that a scene may
+/// hold is a third of it and must not find its way between them.
+TEST(MeshSolids, TheSmallestGrainsDoNotSlipThrough)
+{
+    Scene scene;
+    scene.mode = Mode::dem;
+    scene.grains.sizeSpread = 2.0 / 3.0;
+    scene.time.duration = 0.5;
+    scene.solids.push_back(meshOf(makeSquare(0.3, 1), "sieve"));
+    for (int k = 0; k < 196; ++k) {
+        scene.emitters.push_back(makeSingle(
+            Vec3(0.0303 * (k % 14 - 6.5), 0.0307 * (k / 14 - 6.5), 3.0 * kRadius),
+            Vec3(0.0, 0.0, -1.0)));
+        scene.emitters.back().grainRadius = kRadius / 3.0;
+    }
+    const auto sim = run(scene);
+    for (const Vec3& p : snapshotOf(*sim).position) {
+        EXPECT_GT(p.z(), 0.0) << "fell through at " << p.x() << ", " << p.y();
+    }
+}
+
 /// A bowl, open above: a block with a square pit.
 TriangleMesh makePit(double half, double wall, double depth)
 {

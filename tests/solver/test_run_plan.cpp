@@ -85,6 +85,61 @@ TEST(RunPlan, RefusesAStepOrAStiffnessThatCannotHold)
     EXPECT_DOUBLE_EQ(planRun(fine).step.step, 2e-5);
 }
 
+/// Twelve columns of `depth` side by side, in a container if there is one.
+Scene makeShaft(double depth, bool contained)
+{
+    Scene scene = makeEmptyScene();
+    EmitterSpec fill;
+    fill.kind = EmitterKind::fill;
+    fill.min = Vec3(-0.03, -0.03, 0.0);
+    fill.max = Vec3(0.03, 0.03, depth);
+    scene.emitters.push_back(fill);
+    if (contained) {
+        SolidSpec tube;
+        tube.shape = SolidShape::cylinder;
+        tube.hollow = true;
+        tube.radius = 0.045;
+        tube.height = depth + 0.1;
+        scene.solids.push_back(tube);
+    }
+    return scene;
+}
+
+TEST(RunPlan, SettledSandStandsAsDeepAsItWasPutIn)
+{
+    for (const double depth : {0.1, 1.0, 3.0}) {
+        const RunPlan plan = planRun(makeShaft(depth, false));
+        EXPECT_GE(plan.load.deepestColumn, depth);
+        EXPECT_LE(plan.load.deepestColumn, std::max(0.15, 1.01 * depth));
+        EXPECT_LE(plan.stiffness.loadOverlap, 0.3 + 1e-9);
+    }
+}
+
+TEST(RunPlan, AContainerKeepsSandFromRunningOut)
+{
+    // The same grains from a jet: on open ground a low cone, in a tube a column.
+    Scene scene = makePour(3000, Mode::dem);
+    const double open = planRun(scene).load.deepestColumn;
+    SolidSpec tube;
+    tube.shape = SolidShape::cylinder;
+    tube.hollow = true;
+    tube.radius = 0.03;
+    tube.height = 2.0;
+    scene.solids.push_back(tube);
+    const double volume = 3000.0 * 4.0 / 3.0 * kPi * std::pow(0.005, 3);
+    const double densest = volume / 0.64 / (kPi * 0.03 * 0.03);
+    const double inTube = planRun(scene).load.deepestColumn;
+    EXPECT_GT(inTube, densest);
+    EXPECT_LT(inTube, 1.2 * densest);
+    EXPECT_LT(open, 0.3 * inTube);
+    // It runs over at the rim; what has run over makes no deeper column than on open ground.
+    scene.solids.back().height = 0.2;
+    EXPECT_DOUBLE_EQ(planRun(scene).load.deepestColumn, std::max(open, 0.2));
+    // A block of that size is no container.
+    scene.solids.back().hollow = false;
+    EXPECT_DOUBLE_EQ(planRun(scene).load.deepestColumn, open);
+}
+
 TEST(RunPlan, IsWhatTheSimulationDoes)
 {
     Scene scene = makePour(100, Mode::dem);
