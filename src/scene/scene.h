@@ -70,7 +70,7 @@ struct SurfaceFlowSpec {
     double freezeTime = 0.08;            ///< s at rest before a supported grain may freeze
     double cagedTime = 0.32;             ///< s at rest after which any caged grain may freeze
     double buryClearance = 1.4;          ///< d kept between mobile and buried grains
-    double creepDecay = 1.0;             ///< d, over which the bed's creep falls by e; 0: rigid bed
+    double creepDecay = 0.8;             ///< d, over which the bed's creep falls by e; 0: rigid bed
     double creepDepth = 2.0;             ///< d below the top of the bed where its creep ends
 };
 

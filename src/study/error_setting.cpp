@@ -26,7 +26,7 @@ std::vector<Sweep> listSweeps(const Scene& scene)
     return {
         {"time step", "time.step_safety", " of bound", 1.0, scene.time.stepSafety,
          {0.4, 0.6, 0.8, 1.0}},
-        {"R_min", "surface_flow.min_flow_depth", " d", 1.0, s.minFlowDepth, {1.0, 2.0, 3.0, 4.0}},
+        {"R_min", "surface_flow.min_flow_depth", " d", 1.0, s.minFlowDepth, {1.0, 1.5, 2.0, 3.0}},
         {"interface", "surface_flow.interface_thickness", " d", 1.0, s.interfaceThickness,
          {1.6, 2.2, 3.0, 4.0}},
         {"cell size", "surface_flow.cell_size", " d", 1.0, s.cellSize, {2.0, 3.0, 4.0, 6.0}},
@@ -36,12 +36,12 @@ std::vector<Sweep> listSweeps(const Scene& scene)
         {"theta0", "surface_flow.repose_angle", " deg", 1.0, reportRepose(scene).neutralSlope(),
          {30.0, 33.0, 36.0, 39.0}},
         {"freeze speed", "surface_flow.freeze_speed", " mm/s", 1e-3, s.freezeSpeed,
-         {1.0, 2.0, 4.0, 8.0}},
+         {4.0, 10.0, 20.0, 40.0}},
         {"freeze time", "surface_flow.freeze_time", " ms", 1e-3, s.freezeTime,
          {40.0, 80.0, 160.0}},
         {"bury clearance", "surface_flow.bury_clearance", " d", 1.0, s.buryClearance,
-         {1.0, 1.6, 2.5}},
-        {"bed creep", "surface_flow.creep_decay", " d", 1.0, s.creepDecay, {0.0, 0.7, 1.0, 1.5}},
+         {1.0, 1.4, 2.5}},
+        {"bed creep", "surface_flow.creep_decay", " d", 1.0, s.creepDecay, {0.0, 0.6, 0.8, 1.0}},
         {"smoothing", "surface_flow.smoothing", "", 1.0, s.smoothing, {0.0, 0.3, 0.6}},
     };
 }

@@ -94,7 +94,7 @@ template <class Real>
 void BedCreep<Real>::findBedVelocity(const ColumnGrid& columns, double interval)
 {
     const std::size_t count = columns.spanCount();
-    velocity_.resize(count, Vec3::Zero());
+    averaged_.resize(count, Vec3::Zero());
     bedTop_.assign(count, kNoBed);
     const double kept = std::exp(-interval / kMemory);
     const double fastest = kLongestShift * params_.diameter / interval;
@@ -137,7 +137,7 @@ void BedCreep<Real>::findBedVelocity(const ColumnGrid& columns, double interval)
             }
         }
         const double speed = u.norm();
-        velocity_[s] = kept * velocity_[s] +
+        averaged_[s] = kept * averaged_[s] +
                        (1.0 - kept) * (speed > fastest ? Vec3(fastest / speed * u) : u);
     }
 }
@@ -145,8 +145,9 @@ void BedCreep<Real>::findBedVelocity(const ColumnGrid& columns, double interval)
 template <class Real>
 void BedCreep<Real>::smooth(const ColumnGrid& columns)
 {
-    const auto count = static_cast<std::int64_t>(velocity_.size());
-    smoothed_.resize(velocity_.size());
+    const auto count = static_cast<std::int64_t>(averaged_.size());
+    velocity_ = averaged_;
+    smoothed_.resize(averaged_.size());
     for (int pass = 0; pass < kSmoothings; ++pass) {
 #pragma omp parallel for schedule(static)
         for (std::int64_t s = 0; s < count; ++s) {

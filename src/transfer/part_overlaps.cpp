@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <cstdlib>
 
 namespace sandflow {
 namespace {
@@ -13,7 +12,7 @@ constexpr double kRelaxation = 1.3;      // of the mean correction of a grain's 
 constexpr double kAllowed = 0.01;        // of the distance of touching grains: sand at rest has that
 constexpr double kSearchMargin = 0.15;   // of it: neighbours that may come to touch in these rounds
 constexpr double kTouching = 0.02;       // of it: closer than that counts as touching
-const double kSinking = getenv("EXP_SETTLE") ? atof(getenv("EXP_SETTLE")) : 0.4;        // of its way: how far a grain sinks that is not held
+constexpr double kSinking = 1.0;         // of its way: how far a grain sinks that is not held
 constexpr int kHolding = 4;              // partners that hold a sphere with friction
 constexpr double kHarmless = 0.06;       // of r: as deep as the most pressed pairs of full DEM at rest
 constexpr int kMostTurns = 40;           // of kRounds each

@@ -1,7 +1,6 @@
 #include "transfer/rest_judge.h"
 
 #include "dem/contact_law.h"
-#include <cstdlib>
 
 
 namespace sandflow {
@@ -67,18 +66,14 @@ RestForces restForces(const LawNumbers<double>& numbers, const Dem<Real>& dem,
 
 }  // namespace
 
-/// Sand that creeps goes by fits and starts: it is caught in a pause, so that its momentum is not lost.
-const double kSlowShare = getenv("EXP_SLOW") ? atof(getenv("EXP_SLOW")) : 1.0;
-/// Above the bed nothing holds a grain that only pauses: it would be woken at once.
-constexpr double kSleepShare = 0.05;
-
 RestRules makeRestRules(const SurfaceFlowSpec& spec)
 {
     RestRules rules;
     rules.freezeDistance = spec.freezeSpeed * spec.freezeTime;
     rules.freezeTime = spec.freezeTime;
-    rules.slowSpeed = kSlowShare * spec.freezeSpeed;
-    rules.sleepSpeed = kSleepShare * spec.freezeSpeed;
+    rules.slowSpeed = spec.freezeSpeed;
+    // Above the bed nothing holds a grain that only pauses: it would be woken at once.
+    rules.sleepSpeed = 0.05 * spec.freezeSpeed;
     rules.cagedTime = spec.cagedTime;
     return rules;
 }

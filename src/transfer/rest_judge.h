@@ -8,7 +8,7 @@ namespace sandflow {
 /// When a grain counts as mechanically at rest, and when one that rests must be woken. A grain is
 /// frozen because it is at rest, never because it is deep.
 struct RestRules {
-    double freezeDistance = 3.2e-4;  ///< m: freezeSpeed x freezeTime
+    double freezeDistance = 1.6e-3;  ///< m: freezeSpeed x freezeTime
     double freezeTime = 0.08;        ///< s
     double slowSpeed = 0.02;         ///< m/s, at the moment of freezing: what it has is lost
     double sleepSpeed = 0.001;       ///< m/s, likewise of falling asleep in the flowing layer

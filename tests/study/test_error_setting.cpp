@@ -71,7 +71,7 @@ TEST(ErrorSetting, ValuesReachTheSceneInItsUnits)
         return readWith(find(settings, approximation, value).overrides);
     };
     EXPECT_EQ(sceneOf("R_min", "3 d").surfaceFlow.minFlowDepth, 3.0);
-    EXPECT_EQ(sceneOf("freeze speed", "1 mm/s").surfaceFlow.freezeSpeed, 1e-3);
+    EXPECT_EQ(sceneOf("freeze speed", "4 mm/s").surfaceFlow.freezeSpeed, 4e-3);
     EXPECT_EQ(sceneOf("transfer interval", "10 ms").surfaceFlow.interval, 0.01);
     EXPECT_EQ(sceneOf("theta0", "39 deg").surfaceFlow.reposeAngle, 39.0);
     EXPECT_EQ(sceneOf("method", "dem").mode, Mode::dem);
@@ -106,8 +106,8 @@ TEST(ErrorSetting, QuickKeepsTheEndsOfEachSweep)
     }
     EXPECT_EQ(endNames, allNames);
     EXPECT_NO_THROW(find(ends, "R_min", "1 d"));
-    EXPECT_NO_THROW(find(ends, "R_min", "4 d"));
-    EXPECT_THROW(find(ends, "R_min", "3 d"), std::runtime_error);
+    EXPECT_NO_THROW(find(ends, "R_min", "3 d"));
+    EXPECT_THROW(find(ends, "R_min", "2 d"), std::runtime_error);
 }
 
 /// A simulation accepts the softer grains: the overlap it allows is raised with them.

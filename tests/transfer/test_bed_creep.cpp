@@ -48,7 +48,7 @@ struct FlowingBox {
             }
         }
         for (double& H : state.columns.H) {
-            H = kTop;
+            H = kTop + 0.1 * kDiameter;  // no layer of grains on the line between two layers
         }
     }
 
@@ -103,8 +103,9 @@ TEST(BedCreep, CarriesWhatLiesOnTheBedAndDiesOutBelowIt)
     };
     EXPECT_GT(shiftOf(8), 0.0);
     EXPECT_NEAR(shiftOf(11), shiftOf(8), 1e-9);  // the flow as a whole, besides its own motion
-    EXPECT_LT(shiftOf(7), shiftOf(8));
-    EXPECT_LT(shiftOf(6), shiftOf(7));
+    EXPECT_LE(shiftOf(7), shiftOf(8));  // centres of the first fixed layer: where the bed begins
+    EXPECT_GT(shiftOf(6), 0.0);
+    EXPECT_LT(shiftOf(6), 0.5 * shiftOf(7));
     for (std::uint32_t height = 0; height < 6; ++height) {
         EXPECT_EQ(shiftOf(height), 0.0) << height;
     }
@@ -186,16 +187,18 @@ TEST(OverlapParter, WhatDoesNotMoveIsAnObstacle)
     Dem<float> dem(makeSetup());
     dem.recordContacts();
     addFrozen(dem, Vec3(0.0, 0.0, 0.0), 1);
-    addFrozen(dem, Vec3(0.012, 0.0, 0.0), 2);
+    addFrozen(dem, Vec3(0.0112, 0.0, 0.0), 2);
     OverlapParter<float> parter;
     const auto towards = [](const GrainRecord<float>& g) -> Vec3 {
-        return g.id == 2 ? Vec3(-0.004, 0.001, 0.0) : Vec3::Zero();
+        return g.id == 2 ? Vec3(-0.0018, 0.001, 0.0) : Vec3::Zero();
     };
     EXPECT_EQ(parter.shiftAndPart(towards, 1e-7, BuriedGrains(0.03), dem), 1u);
     const auto one = static_cast<std::size_t>(frozenIndex(dem, 1));
     const auto two = static_cast<std::size_t>(frozenIndex(dem, 2));
     EXPECT_EQ(positionOf(dem.frozen().record(one)), Vec3::Zero());
-    EXPECT_NEAR(positionOf(dem.frozen().record(two)).norm(), 0.99 * kDiameter, 1e-5);
+    const double apart = positionOf(dem.frozen().record(two)).norm();
+    EXPECT_GE(apart, 0.99 * kDiameter);
+    EXPECT_LE(apart, 1.01 * kDiameter);
 }
 
 }  // namespace

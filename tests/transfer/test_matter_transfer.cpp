@@ -172,7 +172,7 @@ TEST(MatterTransfer, CountsAreConservedWhateverTheBedDoes)
         const std::uint32_t id = 2 * n + (moves ? 1 : 0);
         known[id] = {p, static_cast<float>(radius)};
         if (moves || kind < 0.4) {
-            addMobile(s.dem, p, id, Vec3(0.1, 0.0, 0.0), radius);
+            addMobile(s.dem, p, id, Vec3::Zero(), radius);
         } else {
             addFrozen(s.dem, p, id, kind < 0.6 ? GrainState::asleep : GrainState::interface,
                       radius);
@@ -214,10 +214,9 @@ TEST(MatterTransfer, CountsAreConservedWhateverTheBedDoes)
 TEST(MatterTransfer, ReleaseAllMakesEveryGrainMobile)
 {
     State s;
-    std::mt19937 random(8);
-    std::uniform_real_distribution<double> across(0.0, kWidth), up(0.005, 0.2);
-    for (std::uint32_t id = 0; id < 1000; ++id) {
-        const double x = across(random), y = across(random), z = up(random);
+    for (std::uint32_t id = 0; id < 4000; ++id) {  // side by side, 20 x 20 x 10
+        const double x = 0.012 * (id % 20 + 0.5), y = 0.012 * (id / 20 % 20 + 0.5);
+        const double z = 0.012 * (id / 400 + 0.5);
         if (id % 5 == 0) {
             addMobile(s.dem, Vec3(x, y, 0.2 + z), 2 * id + 1, Vec3(1.0, 0.0, 0.0));
         } else {

@@ -35,6 +35,8 @@ TEST(RestRules, ComeFromTheScene)
     EXPECT_DOUBLE_EQ(rules.freezeDistance, 3e-4);
     EXPECT_DOUBLE_EQ(rules.freezeTime, 0.1);
     EXPECT_DOUBLE_EQ(rules.cagedTime, 0.5);
+    EXPECT_DOUBLE_EQ(rules.slowSpeed, 0.003);
+    EXPECT_LT(rules.sleepSpeed, 0.1 * rules.slowSpeed);
 }
 
 TEST(IsAtRest, ASupportedStillGrainAfterEightyMilliseconds)
@@ -51,10 +53,10 @@ TEST(IsAtRest, TooFewContactsOrTooMuchForceMustWaitUntilCaged)
 {
     const RestRules rules;
     Dem<float> loose = makeSupported(), pushed = makeSupported();
-    loose.mobile().load[0].contacts = 3.0f;
+    loose.mobile().load[0].contacts = 2.0f;
     const double weight = kGravity * loose.massOf(kRadius);
     pushed.mobile().load[0].load = static_cast<float>(2.0 * weight);
-    pushed.mobile().load[0].netForce = static_cast<float>(1.0 * weight);  // > 0.3 of 3 weights
+    pushed.mobile().load[0].netForce = static_cast<float>(1.6 * weight);  // > 0.5 of 3 weights
     for (int window = 1; window <= 20; ++window) {
         for (Dem<float>* dem : {&loose, &pushed}) {
             updateRestClocks(rules, kInterval, *dem);
@@ -62,14 +64,14 @@ TEST(IsAtRest, TooFewContactsOrTooMuchForceMustWaitUntilCaged)
         }
     }
     pushed.mobile().memory[0].stillTime = 0.1f;
-    pushed.mobile().load[0].netForce = static_cast<float>(0.8 * weight);
-    EXPECT_TRUE(isAtRest(rules, pushed, 0)) << "0.8 < 0.3 x 3 weights";
+    pushed.mobile().load[0].netForce = static_cast<float>(1.4 * weight);
+    EXPECT_TRUE(isAtRest(rules, pushed, 0)) << "1.4 < 0.5 x 3 weights";
 }
 
 TEST(IsAtRest, ACreepingGrainNever)
 {
     const RestRules rules;
-    const double limit = rules.freezeDistance / rules.freezeTime;  // 4 mm/s
+    const double limit = rules.freezeDistance / rules.freezeTime;
     for (const double speed : {1.25 * limit, 2.5 * limit, 25.0 * limit}) {
         Dem<float> dem = makeSupported();
         for (int window = 0; window < 100; ++window) {
@@ -95,6 +97,8 @@ TEST(IsAtRest, AGrainThatRattlesInItsCage)
         dem.mobile().record[0].x += (window % 2 ? 1.0 : -1.0) * 5e-5;
         updateRestClocks(rules, kInterval, dem);
     }
+    EXPECT_FALSE(isAtRest(rules, dem, 0)) << "its momentum would be lost";
+    dem.mobile().record[0].vx = 0.0f;  // where it turns
     EXPECT_TRUE(isAtRest(rules, dem, 0));
 }
 
