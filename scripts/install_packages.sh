@@ -4,7 +4,7 @@
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libeigen3-dev libassimp-dev libgsl-dev libtomlplusplus-dev
-    libcli11-dev libspdlog-dev libfmt-dev zlib1g-dev libgtest-dev librapidcheck-dev libhwy-dev
+    libcli11-dev libfmt-dev zlib1g-dev libgtest-dev librapidcheck-dev libhwy-dev
     povray gnuplot-nox "$@")
 
 missing=()
