@@ -12,7 +12,7 @@ namespace sandflow {
 /// touched only when lists are rebuilt or grains are judged, never in a step.
 struct GrainMemory {
     double anchorX = 0, anchorY = 0, anchorZ = 0;  ///< m, where it was when it last counted as moved
-    float stillTime = 0;                           ///< s since then
+    float stillTime = 0;                           ///< s since then; < 0: so long it counts as moving
     float freeTime = 0;                            ///< s since it last touched anything
     Vec3f velocity = Vec3f::Zero();                ///< m/s, when that was last looked at
 };

@@ -66,12 +66,13 @@ struct SurfaceFlowSpec {
     double maxChange = 0.3;              ///< d, largest |dh| in one interval
     bool transport = false;              ///< v_d dR/dx of eq. 2; off: the grains carry R
     double transportSpeed = 0.3;         ///< v_d, m/s, only with transport
-    double freezeSpeed = 0.02;           ///< m/s, mean over freezeTime
-    double freezeTime = 0.08;            ///< s at rest before a supported grain may freeze
+    double freezeSpeed = 0.03;           ///< m/s, mean over freezeTime
+    double freezeTime = 0.06;            ///< s at rest before a supported grain may freeze
     double cagedTime = 0.32;             ///< s at rest after which any caged grain may freeze
-    double buryClearance = 1.4;          ///< d kept between mobile and buried grains
-    double creepDecay = 0.8;             ///< d, over which the bed's creep falls by e; 0: rigid bed
+    double buryClearance = 1.3;          ///< d kept between mobile and buried grains
+    double creepDecay = 0.6;             ///< d, over which the bed's creep falls by e; 0: rigid bed
     double creepDepth = 2.0;             ///< d below the top of the bed where its creep ends
+    double settleDepth = 15.0;           ///< d, of the sand set free when the flow has ended; 0: none
 };
 
 /// [skip] Work left out; every switch can be turned off (--no-skip turns all off).

@@ -158,6 +158,9 @@ void visitFields(T& flow, Visitor& visit)
           flow.creepDecay, limits::kDepth);
     visit(Key{"creep_depth", "grain diameters", "Below the top of the bed: there creep ends."},
           flow.creepDepth, limits::kDepth);
+    visit(Key{"settle_depth", "grain diameters",
+              "Down to it sand of a bed that crept is set free once its flow has ended; 0: none."},
+          flow.settleDepth, limits::kDepth);
 }
 
 template <SpecOf<SkipSpec> T, class Visitor>

@@ -82,6 +82,14 @@ CreepParams creepParams(const Scene& scene)
     return params;
 }
 
+SettlingParams settlingParams(const Scene& scene)
+{
+    SettlingParams params;
+    params.depth = scene.surfaceFlow.settleDepth * scene.diameter();
+    params.least = 0.2 * scene.diameter();
+    return params;
+}
+
 template <class Real>
 Vec3 positionOf(const GrainRecord<Real>& g)
 {
@@ -114,6 +122,7 @@ SandSolver<Real>::SandSolver(const Scene& scene)
       rest_(makeRestRules(scene.surfaceFlow)),
       transfer_(transferParams(scene)),
       creep_(creepParams(scene)),
+      settling_(settlingParams(scene)),
       separates_(scene.mode == Mode::surfaceFlow)
 {
     for (std::size_t e = 0; e < scene.emitters.size(); ++e) {
@@ -197,6 +206,8 @@ void SandSolver<Real>::separateLayers(double interval, FrameReport& report)
         dem_.recordContacts();
         report.transfer += transfer_.apply(columns_, dem_, buried_, zones);
         creep_.carry(columns_, interval, buried_, dem_);
+        report.transfer += transfer_.setFreeAbove(
+            settling_.endedFlows(columns_, creep_.bedVelocity(), interval), columns_, dem_, buried_);
     }
     rebuildLists(report);
 }

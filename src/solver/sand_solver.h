@@ -8,6 +8,7 @@
 #include "solver/overlap_guard.h"
 #include "solver/simulation.h"
 #include "transfer/bed_creep.h"
+#include "transfer/bed_settling.h"
 #include "transfer/matter_transfer.h"
 
 #include <memory>
@@ -58,6 +59,7 @@ private:
     RestRules rest_;
     MatterTransfer<Real> transfer_;
     BedCreep<Real> creep_;
+    BedSettling settling_;
     ImpactWatch impacts_;
     std::vector<AccumulatedGrain> accumulated_;
 

@@ -88,10 +88,11 @@ std::string plotFamily(const std::vector<Finding>& family)
     }
     text += fmt::format("set title {}\nset xlabel {}\n", gnuplotQuoted(family.front().family),
                         gnuplotQuoted(family.front().parameter));
+    const double margin = span > 1e-6 ? 0.1 * span : 1.0;
     text += wide ? fmt::format("set logscale x\nset format x '%.4g'\nset xrange [{:.6g}:{:.6g}]\n",
                                low->value / 1.6, high->value * 1.6)
                  : fmt::format("unset logscale x\nset format x '%.4g'\nset xrange [{:.6g}:{:.6g}]\n",
-                               low->value - 0.1 * span, high->value + 0.1 * span);
+                               low->value - margin, high->value + margin);
     return text + "plot " + curves + "\n\n";
 }
 

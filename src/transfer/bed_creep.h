@@ -25,8 +25,9 @@ struct CreepParams {
 ///     v(z) = u_b (exp(z / lambda) - 1)       z above it, relative to the bed: the same profile
 ///
 /// u_b follows from the mean of v over the lowest two diameters of the flow. How much of it the bed
-/// takes over depends on lambda alone: 0.46 at 1 d, 0.29 at 0.8 d, the default, with which heaps of
-/// 107,687 grains stand as in full DEM (at 1 d they end a degree or two too flat).
+/// takes over depends on lambda alone: 0.46 at 1 d, 0.29 at 0.8 d, 0.14 at 0.6 d, the default, with
+/// which heaps stand as in full DEM once they have settled (bed_settling.h); at 0.8 d they end two
+/// degrees too flat, without creep more than one too steep.
 template <class Real>
 class BedCreep {
 public:

@@ -9,6 +9,9 @@
 namespace sandflow {
 namespace {
 
+/// A released heap of 40 d comes to rest within about that.
+constexpr float kSettlingTime = 0.25f;  // s
+
 template <class Real>
 Vec3 positionOf(const GrainRecord<Real>& g)
 {
@@ -298,6 +301,51 @@ void MatterTransfer<Real>::uncoverShallowOnes(const ColumnGrid& columns, Dem<Rea
                 return true;
             });
     }
+}
+
+template <class Real>
+TransferReport MatterTransfer<Real>::setFreeAbove(const std::vector<double>& line,
+                                                  const ColumnGrid& columns, Dem<Real>& dem,
+                                                  BuriedGrains& buried)
+{
+    TransferReport report;
+    if (line.empty()) {
+        return report;
+    }
+    const auto isAbove = [&](const Vec3& position) {
+        const std::int32_t span = columns.spanAt(position.x(), position.y(), position.z());
+        return span != ColumnGrid::kNone && position.z() > line[span];
+    };
+    freed_.clear();
+    dem.frozen().removeUnless([&](std::size_t k) {
+        const GrainRecord<Real>& g = dem.frozen().record(k);
+        if (!isAbove(positionOf(g))) {
+            return true;
+        }
+        ++(dem.frozen().info(k).state == GrainState::asleep ? report.woken : report.dislodged);
+        freed_.push_back(g);
+        return false;
+    });
+    for (std::size_t s = 0; s < columns.spanCount(); ++s) {
+        buried.takeAbove(columns.columnI[s], columns.columnJ[s], line[s],
+                         [&](const Vec3& position, double radius, std::uint32_t id) {
+                             if (!isAbove(position)) {
+                                 return false;
+                             }
+                             freed_.push_back(dem.makeRecord(position, radius, id));
+                             ++report.uncovered;
+                             ++report.dislodged;
+                             return true;
+                         });
+    }
+    const std::size_t moving = dem.mobile().size();
+    addFreed(dem);
+    for (std::size_t k = moving; k < dem.mobile().size(); ++k) {
+        dem.mobile().memory[k].stillTime = -kSettlingTime;
+    }
+    findBuryLines(columns, dem);
+    uncoverShallowOnes(columns, dem, buried, report);
+    return report;
 }
 
 template <class Real>

@@ -55,6 +55,12 @@ public:
     /// they come (between recordContacts() and rebuild()).
     TransferReport wakeMarked(const ColumnGrid& columns, Dem<Real>& dem, BuriedGrains& buried);
 
+    /// Sets free what lies above the line [m] of its span, by span; none if it is empty. It is not
+    /// fixed again before it had time to find its rest. As apply(), between recordContacts() and
+    /// rebuild().
+    TransferReport setFreeAbove(const std::vector<double>& line, const ColumnGrid& columns,
+                                Dem<Real>& dem, BuriedGrains& buried);
+
     /// Makes every frozen and buried grain mobile (between recordContacts() and rebuild()).
     void releaseAll(Dem<Real>& dem, BuriedGrains& buried) const;
 

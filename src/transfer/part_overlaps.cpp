@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kRounds = 16;
 constexpr double kRelaxation = 1.3;      // of the mean correction of a grain's overlapping pairs
-constexpr double kAllowed = 0.01;        // of the distance of touching grains: sand at rest has that
+constexpr double kAllowed = 0.002;       // of the distance of touching grains: sand at rest has that
 constexpr double kSearchMargin = 0.15;   // of it: neighbours that may come to touch in these rounds
 constexpr double kTouching = 0.02;       // of it: closer than that counts as touching
 constexpr double kSinking = 1.0;         // of its way: how far a grain sinks that is not held

@@ -2,6 +2,7 @@
 
 #include "dem/contact_law.h"
 
+#include <algorithm>
 
 namespace sandflow {
 namespace {
@@ -90,7 +91,7 @@ void updateRestClocks(const RestRules& rules, double interval, Dem<Real>& dem)
         const double dx = g.x - m.anchorX, dy = g.y - m.anchorY, dz = g.z - m.anchorZ;
         if (dx * dx + dy * dy + dz * dz > limit) {
             m.anchorX = g.x, m.anchorY = g.y, m.anchorZ = g.z;
-            m.stillTime = 0;
+            m.stillTime = std::min(m.stillTime + static_cast<float>(interval), 0.0f);
         } else {
             m.stillTime += static_cast<float>(interval);
         }

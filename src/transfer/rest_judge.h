@@ -8,10 +8,10 @@ namespace sandflow {
 /// When a grain counts as mechanically at rest, and when one that rests must be woken. A grain is
 /// frozen because it is at rest, never because it is deep.
 struct RestRules {
-    double freezeDistance = 1.6e-3;  ///< m: freezeSpeed x freezeTime
-    double freezeTime = 0.08;        ///< s
-    double slowSpeed = 0.02;         ///< m/s, at the moment of freezing: what it has is lost
-    double sleepSpeed = 0.001;       ///< m/s, likewise of falling asleep in the flowing layer
+    double freezeDistance = 1.8e-3;  ///< m: freezeSpeed x freezeTime
+    double freezeTime = 0.06;        ///< s
+    double slowSpeed = 0.03;         ///< m/s, at the moment of freezing: what it has is lost
+    double sleepSpeed = 0.0015;      ///< m/s, likewise of falling asleep in the flowing layer
     double cagedTime = 0.32;         ///< s
     int contacts = 3;                ///< partners that push, to be frozen after freezeTime
     double netForceShare = 0.5;      ///< |net force| < this x (weight + load)

@@ -115,6 +115,7 @@ private:
         flow.buryClearance = number(0, 9);
         flow.creepDecay = number(0, 9);
         flow.creepDepth = number(0, 9);
+        flow.settleDepth = number(0, 20);
     }
 
     SolidSpec makeSolid(SolidShape shape)

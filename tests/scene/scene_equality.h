@@ -62,6 +62,7 @@ inline void expectSame(const SurfaceFlowSpec& a, const SurfaceFlowSpec& b)
     expectSameBits(a.buryClearance, b.buryClearance);
     expectSameBits(a.creepDecay, b.creepDecay);
     expectSameBits(a.creepDepth, b.creepDepth);
+    expectSameBits(a.settleDepth, b.settleDepth);
 }
 
 inline void expectSame(const SolidSpec& a, const SolidSpec& b)

@@ -21,7 +21,9 @@ struct Release {
 /// Pours a heap, lets it come to rest, sets it free and watches it for 0.3 s.
 Release releaseHeap(std::int64_t count, Mode mode)
 {
-    const auto simulation = run(makePour(count, mode));
+    Scene scene = makePour(count, mode);
+    scene.time.settle = 1.5;  // when its flow ends the bed is set free once more
+    const auto simulation = run(scene);
     Release release;
     release.before = simulation->ledger();
     ReleaseWatch watch(snapshotOf(*simulation), levelFloor(0.0), kGravity);

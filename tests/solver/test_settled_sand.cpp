@@ -104,8 +104,8 @@ TEST(ReleasedSand, DoesNotExplode)
 {
     // A heap that was poured, frozen, buried and then set free all at once.
     Scene scene = makePour(1500, Mode::surfaceFlow);
-    scene.time.settle = 1.5;
-    const double release = 1500.0 / 600.0 + 1.0;
+    scene.time.settle = 2.0;
+    const double release = 1500.0 / 600.0 + 1.5;
     releaseAllAt(release, scene);
     Ledger before;
     double apexBefore = 0.0, deepest = 0.0, fastest = 0.0;

@@ -39,13 +39,14 @@ TEST(RestRules, ComeFromTheScene)
     EXPECT_LT(rules.sleepSpeed, 0.1 * rules.slowSpeed);
 }
 
-TEST(IsAtRest, ASupportedStillGrainAfterEightyMilliseconds)
+TEST(IsAtRest, ASupportedStillGrainAfterFreezeTime)
 {
     Dem<float> dem = makeSupported();
     const RestRules rules;
     for (int window = 1; window <= 6; ++window) {
         updateRestClocks(rules, kInterval, dem);
-        EXPECT_EQ(isAtRest(rules, dem, 0), window >= 4) << "after " << window << " x 20 ms";
+        EXPECT_EQ(isAtRest(rules, dem, 0), window * kInterval >= rules.freezeTime - 1e-9)
+            << "after " << window << " x 20 ms";
     }
 }
 
@@ -102,6 +103,21 @@ TEST(IsAtRest, AGrainThatRattlesInItsCage)
     EXPECT_TRUE(isAtRest(rules, dem, 0));
 }
 
+TEST(IsAtRest, WhoIsToSettleCountsAsMovingUntilThen)
+{
+    Dem<float> dem = makeSupported();
+    const RestRules rules;
+    dem.mobile().memory[0].stillTime = -0.1f;
+    for (int window = 1; window <= 12; ++window) {
+        if (window == 2) {  // that it moves meanwhile costs it no more time
+            dem.mobile().record[0].x += 2.0 * rules.freezeDistance;
+        }
+        updateRestClocks(rules, kInterval, dem);
+        EXPECT_EQ(isAtRest(rules, dem, 0), window * kInterval >= 0.1 + rules.freezeTime - 1e-6)
+            << window;
+    }
+}
+
 TEST(IsAtRest, AGrainThatSettlesInAHollowButNotWhileItBounces)
 {
     Dem<float> dem(makeSetup());
@@ -127,8 +143,8 @@ TEST(IsAtRest, AGrainThatSettlesInAHollowButNotWhileItBounces)
     }
     ASSERT_GT(firstRest, 0.0) << "it never came to rest";
     EXPECT_GT(lastMoved, 0.05) << "20 mm take 64 ms";
-    EXPECT_GE(firstRest, lastMoved + 0.08 - 1e-9);
-    EXPECT_LE(firstRest, lastMoved + 0.12 + 1e-9);
+    EXPECT_GE(firstRest, lastMoved + rules.freezeTime - 1e-9);
+    EXPECT_LE(firstRest, lastMoved + rules.freezeTime + 2.0 * kInterval + 1e-9);
     EXPECT_EQ(dem.mobile().load[0].contacts, 4.0f);
     EXPECT_NEAR(dem.mobile().record[0].z, hollowHeight(), 1e-4);
 }
