@@ -36,12 +36,13 @@ std::vector<Sweep> listSweeps(const Scene& scene)
         {"theta0", "surface_flow.repose_angle", " deg", 1.0, reportRepose(scene).neutralSlope(),
          {30.0, 33.0, 36.0, 39.0}},
         {"freeze speed", "surface_flow.freeze_speed", " mm/s", 1e-3, s.freezeSpeed,
-         {4.0, 10.0, 20.0, 40.0}},
+         {4.0, 15.0, 30.0, 60.0}},
         {"freeze time", "surface_flow.freeze_time", " ms", 1e-3, s.freezeTime,
-         {40.0, 80.0, 160.0}},
+         {30.0, 60.0, 120.0}},
         {"bury clearance", "surface_flow.bury_clearance", " d", 1.0, s.buryClearance,
-         {1.0, 1.4, 2.5}},
-        {"bed creep", "surface_flow.creep_decay", " d", 1.0, s.creepDecay, {0.0, 0.6, 0.8, 1.0}},
+         {1.0, 1.3, 2.5}},
+        {"bed creep", "surface_flow.creep_decay", " d", 1.0, s.creepDecay, {0.0, 0.4, 0.6, 0.8}},
+        {"settling", "surface_flow.settle_depth", " d", 1.0, s.settleDepth, {0.0, 15.0, 30.0}},
         {"smoothing", "surface_flow.smoothing", "", 1.0, s.smoothing, {0.0, 0.3, 0.6}},
     };
 }

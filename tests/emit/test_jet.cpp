@@ -374,6 +374,15 @@ TEST(Jet, FloorSceneFitsWithAnySeed)
     }
 }
 
+TEST(Jet, SmallFloorFitsWithAnySeed)
+{
+    Scene scene = makeScene(makeJet(-Vec3::UnitZ(), 1.0, 0.05, 3000.0));
+    scene.emitters[0].count = 5000;
+    for (scene.seed = 0; scene.seed < 200; ++scene.seed) {
+        ASSERT_EQ(refusalOf(scene), "") << "seed " << scene.seed;
+    }
+}
+
 TEST(Jet, TheOtherScenesOfThePaperFit)
 {
     struct Case {

@@ -41,7 +41,7 @@ TEST(SceneFiles, SmallFloorIsAQuickOne)
     const Scene scene = readScene(kSceneDir + "small_floor.toml");
     ASSERT_EQ(scene.emitters.size(), 1U);
     EXPECT_EQ(scene.emitters[0].count, 5000);
-    EXPECT_EQ(scene.emitters[0].rate, 4000.0);
+    EXPECT_EQ(scene.emitters[0].rate, 3000.0);
     EXPECT_EQ(scene.emitters[0].radius, 0.05);
     EXPECT_EQ(scene.emitters[0].position, Vec3(0, 0, 0.4));
     EXPECT_EQ(scene.emitters[0].speed, 1.0);
