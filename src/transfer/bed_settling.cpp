@@ -1,5 +1,7 @@
 #include "transfer/bed_settling.h"
 
+#include <cmath>
+
 namespace sandflow {
 
 const std::vector<double>& BedSettling::endedFlows(const ColumnGrid& columns,
@@ -12,23 +14,24 @@ const std::vector<double>& BedSettling::endedFlows(const ColumnGrid& columns,
     }
     const std::size_t count = columns.spanCount();
     crept_.resize(count, 0.0);
-    time_.resize(count, 0.0);
+    usual_.resize(count, 0.0);
+    const double kept = std::exp(-interval / params_.lately);
     visited_.assign(count, 0);
     for (std::size_t s = 0; s < bedVelocity.size(); ++s) {
-        const double shift = bedVelocity[s].norm() * interval;
-        crept_[s] += shift;
-        time_[s] += shift > 0.0 ? interval : 0.0;
+        const double speed = bedVelocity[s].norm();
+        crept_[s] += speed * interval;
+        usual_[s] = kept * usual_[s] + (1.0 - kept) * speed;
     }
     for (std::int32_t s = 0; s < static_cast<std::int32_t>(count); ++s) {
         if (visited_[s] || !owesRest(s)) {
             continue;
         }
         findRegion(columns, s);
-        if (regionIsQuiet(bedVelocity)) {
+        if (flowIsEnding(bedVelocity)) {
             line_.resize(count, kNowhere);
             for (const std::int32_t t : region_) {
                 line_[t] = columns.H[t] - params_.depth;
-                crept_[t] = time_[t] = 0.0;
+                crept_[t] = 0.0;
             }
         }
     }
@@ -50,14 +53,14 @@ void BedSettling::findRegion(const ColumnGrid& columns, std::int32_t first)
     }
 }
 
-bool BedSettling::regionIsQuiet(const std::vector<Vec3>& bedVelocity) const
+bool BedSettling::flowIsEnding(const std::vector<Vec3>& bedVelocity) const
 {
     double now = 0.0, usual = 0.0;
     for (const std::int32_t s : region_) {
         now += bedVelocity[s].norm();
-        usual += crept_[s] / time_[s];
+        usual += usual_[s];
     }
-    return now < params_.quiet * usual;
+    return now < params_.ending * usual;
 }
 
 }  // namespace sandflow

@@ -11,8 +11,9 @@ namespace sandflow {
 struct SettlingParams {
     double depth = 0.15;   ///< below the surface: how far down sand is set free; 0: none ever is
     double least = 0.002;  ///< a bed that crept less holds as it did
-    double quiet = 0.5;    ///< of the mean speed of a region's bed since it began to creep: a bed
-                           ///< slower than that says that its flow is ending
+    double ending = 0.8;   ///< of the speed that a region's bed had lately: if it is slower, its
+                           ///< flow is ending
+    double lately = 0.5;   ///< s, memory of that
 };
 
 /// Creep moves the grains of the bed without asking what bears them. They lie where sheared sand
@@ -34,11 +35,11 @@ public:
 private:
     bool owesRest(std::int32_t span) const { return crept_[span] >= params_.least; }
     void findRegion(const ColumnGrid& columns, std::int32_t first);
-    bool regionIsQuiet(const std::vector<Vec3>& bedVelocity) const;
+    bool flowIsEnding(const std::vector<Vec3>& bedVelocity) const;
 
     SettlingParams params_;
     std::vector<double> crept_;  ///< m, by span, since it was last set free
-    std::vector<double> time_;   ///< s, by span, in which it did
+    std::vector<double> usual_;  ///< m/s, by span, mean speed of the bed lately
     std::vector<char> visited_;  ///< by span
     std::vector<std::int32_t> region_;
     std::vector<double> line_;

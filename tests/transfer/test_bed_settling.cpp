@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace sandflow::testing {
 namespace {
@@ -16,7 +17,8 @@ SettlingParams settlingParams()
     SettlingParams params;
     params.depth = 0.1;
     params.least = 0.002;
-    params.quiet = 0.5;
+    params.ending = 0.8;
+    params.lately = 0.5;
     return params;
 }
 
@@ -72,9 +74,18 @@ TEST(BedSettling, ABedThatHardlyMovedHoldsAsItDid)
 TEST(BedSettling, ARegionWaitsForAllOfItsFlow)
 {
     CreepingBed bed;
-    bed.flow(1.0, 0.01, 0.01);
-    EXPECT_TRUE(bed.pass(0.0, 0.011).empty());  // 5.5 mm/s on average
-    EXPECT_FALSE(bed.pass(0.0, 0.008).empty());
+    bed.flow(3.0, 0.01, 0.01);
+    EXPECT_TRUE(bed.pass(0.0, 0.017).empty());  // 8.5 mm/s on average
+    EXPECT_FALSE(bed.pass(0.0, 0.014).empty());
+}
+
+TEST(BedSettling, AFlowThatWanesSlowlyHasNotEnded)
+{
+    CreepingBed bed;
+    for (double time = 0.0; time < 20.0; time += kInterval) {
+        const double speed = 0.02 * std::exp(-time / 5.0);
+        ASSERT_TRUE(bed.pass(speed, speed).empty()) << time;
+    }
 }
 
 TEST(BedSettling, RegionsApartDoNotWaitForEachOther)
