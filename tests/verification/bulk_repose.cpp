@@ -25,7 +25,7 @@ HeapFigures pourHeap(Mode mode, double friction, double rollingFriction, std::ui
     spout.kind = EmitterKind::jet;
     spout.name = "spout";
     spout.count = 10000;
-    spout.rate = 4000.0;
+    spout.rate = 3000.0;  // fits through the opening whatever the seed
     spout.position = Vec3(0.0, 0.0, 0.3);
     spout.radius = 0.05;
     spout.speed = 1.0;
