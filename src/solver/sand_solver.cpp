@@ -384,6 +384,8 @@ void SandSolver<Real>::solidsCameOrWent()
     if (separates_) {
         std::vector<std::pair<std::int32_t, std::int32_t>> cut;
         columns_.rebuildSpans(cut);
+        creep_ = BedCreep<Real>(creepParams(scene_));  // what they remember is by span
+        settling_ = BedSettling(settlingParams(scene_));
         transfer_.releaseAll(dem_, buried_);
     }
 }
