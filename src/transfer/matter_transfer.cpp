@@ -139,6 +139,22 @@ TransferReport MatterTransfer<Real>::apply(const ColumnGrid& columns, Dem<Real>&
     return report;
 }
 
+/// Into freed_, what was there before is forgotten.
+template <class Real>
+template <class Leaves>
+void MatterTransfer<Real>::takeFixed(Leaves leaves, Dem<Real>& dem, TransferReport& report)
+{
+    freed_.clear();
+    dem.frozen().removeUnless([&](std::size_t k) {
+        if (!leaves(k)) {
+            return true;
+        }
+        ++(dem.frozen().info(k).state == GrainState::asleep ? report.woken : report.dislodged);
+        freed_.push_back(dem.frozen().record(k));
+        return false;
+    });
+}
+
 template <class Real>
 void MatterTransfer<Real>::addFreed(Dem<Real>& dem) const
 {
@@ -153,16 +169,7 @@ TransferReport MatterTransfer<Real>::wakeMarked(const ColumnGrid& columns, Dem<R
                                                 BuriedGrains& buried)
 {
     TransferReport report;
-    freed_.clear();
-    dem.frozen().removeUnless([&](std::size_t k) {
-        const FrozenInfo& info = dem.frozen().info(k);
-        if (!info.wakes) {
-            return true;
-        }
-        ++(info.state == GrainState::asleep ? report.woken : report.dislodged);
-        freed_.push_back(dem.frozen().record(k));
-        return false;
-    });
+    takeFixed([&](std::size_t k) { return dem.frozen().info(k).wakes; }, dem, report);
     if (!freed_.empty()) {
         addFreed(dem);
         findBuryLines(columns, dem);
@@ -316,16 +323,8 @@ TransferReport MatterTransfer<Real>::setFreeAbove(const std::vector<double>& lin
         const std::int32_t span = columns.spanAt(position.x(), position.y(), position.z());
         return span != ColumnGrid::kNone && position.z() > line[span];
     };
-    freed_.clear();
-    dem.frozen().removeUnless([&](std::size_t k) {
-        const GrainRecord<Real>& g = dem.frozen().record(k);
-        if (!isAbove(positionOf(g))) {
-            return true;
-        }
-        ++(dem.frozen().info(k).state == GrainState::asleep ? report.woken : report.dislodged);
-        freed_.push_back(g);
-        return false;
-    });
+    takeFixed([&](std::size_t k) { return isAbove(positionOf(dem.frozen().record(k))); }, dem,
+              report);
     for (std::size_t s = 0; s < columns.spanCount(); ++s) {
         buried.takeAbove(columns.columnI[s], columns.columnJ[s], line[s],
                          [&](const Vec3& position, double radius, std::uint32_t id) {

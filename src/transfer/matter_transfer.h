@@ -75,6 +75,8 @@ private:
     Fate judgeFrozen(const ColumnGrid& columns, const Dem<Real>& dem, std::size_t k) const;
     static constexpr std::size_t kBins = 4;  ///< quarters of a column
     static std::size_t binOf(const ColumnGrid& columns, std::int32_t span, double x, double y);
+    template <class Leaves>
+    void takeFixed(Leaves leaves, Dem<Real>& dem, TransferReport& report);
     void addFreed(Dem<Real>& dem) const;
     void findBuryLines(const ColumnGrid& columns, const Dem<Real>& dem);
     void buryDeepOnes(const ColumnGrid& columns, Dem<Real>& dem, BuriedGrains& buried,
