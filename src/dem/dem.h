@@ -76,6 +76,8 @@ public:
     const FixedGrains<Real, FrozenInfo>& frozen() const { return frozen_; }
     const FixedGrains<Real, BoundaryInfo>& boundary() const { return boundary_; }
     const ContactLists<Real>& lists() const { return lists_; }
+    /// s, when the lists were last made: which solids exist for the grains.
+    double listTime() const { return listTime_; }
     const DemSetup& setup() const { return setup_; }
 
     GrainRecord<Real> makeRecord(const Vec3& position, double radius, std::uint32_t id) const;

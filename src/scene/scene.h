@@ -68,6 +68,7 @@ struct SurfaceFlowSpec {
     double transportSpeed = 0.3;         ///< v_d, m/s, only with transport
     double freezeSpeed = 0.03;           ///< m/s, mean over freezeTime
     double freezeTime = 0.06;            ///< s at rest before a supported grain may freeze
+    bool freezeOnSmooth = false;         ///< also where the base of a heap may slip
     double cagedTime = 0.32;             ///< s at rest after which any caged grain may freeze
     double buryClearance = 1.3;          ///< d kept between mobile and buried grains
     double creepDecay = 0.6;             ///< d, over which the bed's creep falls by e; 0: rigid bed

@@ -149,6 +149,9 @@ void visitFields(T& flow, Visitor& visit)
           flow.freezeTime, limits::kFreezeTime);
     visit(Key{"caged_time", "s", "At rest for so long, a grain caged by others may be fixed."},
           flow.cagedTime, limits::kFreezeTime);
+    visit(Key{"freeze_on_smooth", "",
+              "Fix grains of a slope over a smooth floor too, where the base slips."},
+          flow.freezeOnSmooth, Flag{});
     visit(Key{"bury_clearance", "grain diameters",
               "Kept between the lowest moving grain and the buried ones."},
           flow.buryClearance, limits::kDepth);

@@ -202,7 +202,7 @@ void SandSolver<Real>::separateLayers(double interval, FrameReport& report)
         markWoken(rest_, dem_);
         const std::vector<ImpactZone> zones = impacts_.foresee(interval, columns_, dem_);
         wakeZones(zones, dem_);
-        transfer_.plan(columns_, dem_);
+        transfer_.plan(columns_, dem_, slippingBases());
         dem_.recordContacts();
         report.transfer += transfer_.apply(columns_, dem_, buried_, zones);
         creep_.carry(columns_, interval, buried_, dem_);
@@ -210,6 +210,15 @@ void SandSolver<Real>::separateLayers(double interval, FrameReport& report)
             settling_.endedFlows(columns_, creep_.bedVelocity(), interval), columns_, dem_, buried_);
     }
     rebuildLists(report);
+}
+
+template <class Real>
+std::span<const std::uint8_t> SandSolver<Real>::slippingBases()
+{
+    if (scene_.surfaceFlow.freezeOnSmooth) {
+        return {};
+    }
+    return baseSlip_.find(columns_, solids_.primitives(), time_);
 }
 
 /// H over all accumulated sand: everything fixed, and mobile grains that lie rather than fly.
@@ -386,6 +395,7 @@ void SandSolver<Real>::solidsCameOrWent()
         columns_.rebuildSpans(cut);
         creep_ = BedCreep<Real>(creepParams(scene_));  // what they remember is by span
         settling_ = BedSettling(settlingParams(scene_));
+        baseSlip_ = BaseSlip();
         transfer_.releaseAll(dem_, buried_);
     }
 }

@@ -7,11 +7,13 @@
 #include "grains/buried_grains.h"
 #include "solver/overlap_guard.h"
 #include "solver/simulation.h"
+#include "transfer/base_slip.h"
 #include "transfer/bed_creep.h"
 #include "transfer/bed_settling.h"
 #include "transfer/matter_transfer.h"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace sandflow {
@@ -38,6 +40,7 @@ public:
 private:
     void advanceWindow(double end, FrameReport& report);
     void separateLayers(double interval, FrameReport& report);
+    std::span<const std::uint8_t> slippingBases();
     void measureSurface();
     void moveGrains(double end, FrameReport& report);
     void rebuildLists(FrameReport& report);
@@ -58,6 +61,7 @@ private:
     BcreParams bcre_;
     RestRules rest_;
     MatterTransfer<Real> transfer_;
+    BaseSlip baseSlip_;
     BedCreep<Real> creep_;
     BedSettling settling_;
     ImpactWatch impacts_;

@@ -11,6 +11,13 @@ namespace {
 
 /// A released heap of 40 d comes to rest within about that.
 constexpr float kSettlingTime = 0.25f;  // s
+/// Over a base that may slip: sand that spreads with it is too slow for the usual rest clock.
+constexpr float kLongRest = 1.0f;  // s
+
+bool slipsAt(std::span<const std::uint8_t> slips, std::int32_t span)
+{
+    return span != ColumnGrid::kNone && !slips.empty() && slips[span];
+}
 
 template <class Real>
 Vec3 positionOf(const GrainRecord<Real>& g)
@@ -40,7 +47,8 @@ TransferReport& TransferReport::operator+=(const TransferReport& o)
 }
 
 template <class Real>
-void MatterTransfer<Real>::plan(const ColumnGrid& columns, const Dem<Real>& dem)
+void MatterTransfer<Real>::plan(const ColumnGrid& columns, const Dem<Real>& dem,
+                                std::span<const std::uint8_t> slips)
 {
     const auto mobileCount = static_cast<std::int64_t>(dem.mobile().size());
     const auto frozenCount = static_cast<std::int64_t>(dem.frozen().size());
@@ -48,16 +56,17 @@ void MatterTransfer<Real>::plan(const ColumnGrid& columns, const Dem<Real>& dem)
     frozenFate_.resize(dem.frozen().size());
 #pragma omp parallel for schedule(static)
     for (std::int64_t k = 0; k < mobileCount; ++k) {
-        mobileFate_[k] = judgeMobile(columns, dem, k);
+        mobileFate_[k] = judgeMobile(columns, dem, slips, k);
     }
 #pragma omp parallel for schedule(static)
     for (std::int64_t k = 0; k < frozenCount; ++k) {
-        frozenFate_[k] = judgeFrozen(columns, dem, k);
+        frozenFate_[k] = judgeFrozen(columns, dem, slips, k);
     }
 }
 
 template <class Real>
 auto MatterTransfer<Real>::judgeMobile(const ColumnGrid& columns, const Dem<Real>& dem,
+                                       std::span<const std::uint8_t> slips,
                                        std::size_t k) const -> Fate
 {
     if (!isAtRest(params_.rest, dem, k)) {
@@ -65,15 +74,20 @@ auto MatterTransfer<Real>::judgeMobile(const ColumnGrid& columns, const Dem<Real
     }
     const GrainRecord<Real>& g = dem.mobile().record[k];
     const std::int32_t span = columns.spanAt(g.x, g.y, g.z);
+    const bool isSlow = params_.sleep && speedOf(g) < params_.rest.sleepSpeed;
+    if (slipsAt(slips, span)) {
+        return isSlow && dem.mobile().memory[k].stillTime > kLongRest ? Fate::sleeps : Fate::stays;
+    }
     if (span != ColumnGrid::kNone && !columns.ragged[span] &&
         g.z < bedHeightAt(columns, span, g.x, g.y)) {
         return Fate::trapped;
     }
-    return params_.sleep && speedOf(g) < params_.rest.sleepSpeed ? Fate::sleeps : Fate::stays;
+    return isSlow ? Fate::sleeps : Fate::stays;
 }
 
 template <class Real>
 auto MatterTransfer<Real>::judgeFrozen(const ColumnGrid& columns, const Dem<Real>& dem,
+                                       std::span<const std::uint8_t> slips,
                                        std::size_t k) const -> Fate
 {
     const GrainRecord<Real>& g = dem.frozen().record(k);
@@ -87,7 +101,7 @@ auto MatterTransfer<Real>::judgeFrozen(const ColumnGrid& columns, const Dem<Real
                            ? -1e30
                            : bedHeightAt(columns, span, g.x, g.y);
     if (info.state == GrainState::asleep) {
-        return g.z < bed ? Fate::sinks : Fate::stays;
+        return g.z < bed && !slipsAt(slips, span) ? Fate::sinks : Fate::stays;
     }
     return g.z > bed + params_.hysteresis ? Fate::dislodged : Fate::stays;
 }

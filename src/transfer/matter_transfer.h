@@ -45,7 +45,9 @@ class MatterTransfer {
 public:
     explicit MatterTransfer(const TransferParams& params) : params_(params) {}
 
-    void plan(const ColumnGrid& columns, const Dem<Real>& dem);
+    /// No grain is fixed in a span where `slips` is 1; empty: nowhere.
+    void plan(const ColumnGrid& columns, const Dem<Real>& dem,
+              std::span<const std::uint8_t> slips = {});
     /// Besides, buried grains in the zones are set free; frozen ones there must be marked to wake.
     TransferReport apply(const ColumnGrid& columns, Dem<Real>& dem, BuriedGrains& buried,
                          std::span<const ImpactZone> zones = {});
@@ -71,8 +73,10 @@ public:
 private:
     enum class Fate : std::uint8_t { stays, trapped, sleeps, dislodged, sinks };
 
-    Fate judgeMobile(const ColumnGrid& columns, const Dem<Real>& dem, std::size_t k) const;
-    Fate judgeFrozen(const ColumnGrid& columns, const Dem<Real>& dem, std::size_t k) const;
+    Fate judgeMobile(const ColumnGrid& columns, const Dem<Real>& dem,
+                     std::span<const std::uint8_t> slips, std::size_t k) const;
+    Fate judgeFrozen(const ColumnGrid& columns, const Dem<Real>& dem,
+                     std::span<const std::uint8_t> slips, std::size_t k) const;
     static constexpr std::size_t kBins = 4;  ///< quarters of a column
     static std::size_t binOf(const ColumnGrid& columns, std::int32_t span, double x, double y);
     template <class Leaves>

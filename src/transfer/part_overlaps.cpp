@@ -46,6 +46,7 @@ std::size_t OverlapParter<Real>::shiftAndPart(
         return 0;
     }
     listNeighbours(dem, &buried);
+    listWalls(dem);
     settle(dem.setup().gravity.normalized());
     part();
     fixed.moveTo(moved_, place_);
@@ -67,6 +68,7 @@ double OverlapParter<Real>::partAll(Dem<Real>& dem)
             place_.push_back({g.x, g.y, g.z});
         }
         listNeighbours(dem, nullptr);
+        listWalls(dem);
         deepest = deepestOverlap();
         if (deepest < kHarmless * dem.setup().meanRadius) {
             break;
@@ -137,6 +139,30 @@ void OverlapParter<Real>::listNeighbours(const Dem<Real>& dem, const BuriedGrain
     }
 }
 
+/// Smooth solids have no particles that would hold grains back.
+template <class Real>
+void OverlapParter<Real>::listWalls(const Dem<Real>& dem)
+{
+    wall_.clear();
+    wallEnd_.clear();
+    for (const std::uint32_t k : moved_) {
+        const GrainRecord<Real>& g = dem.frozen().record(k);
+        const Vec3 before(g.x, g.y, g.z);
+        const auto radius = static_cast<double>(g.radius);
+        for (const Primitive& solid : dem.setup().primitives) {
+            if (solid.rough || !solid.existsAt(dem.listTime())) {
+                continue;
+            }
+            const SurfacePoint surface = nearestSurface(solid, before);
+            if (surface.distance < radius * (1.0 + 2.0 * kSearchMargin)) {
+                wall_.push_back(
+                    {surface.normal, surface.normal.dot(before) - surface.distance, radius});
+            }
+        }
+        wallEnd_.push_back(static_cast<std::uint32_t>(wall_.size()));
+    }
+}
+
 /// Sand that is sheared opens up, and its weight closes it again: a grain that touches too few
 /// others to be held by them sinks, in proportion to the way that it went.
 template <class Real>
@@ -153,6 +179,9 @@ void OverlapParter<Real>::settle(const Vec3& down)
                                                          : place_[other.grain];
             const double sight = other.reach * (1.0 + kTouching);
             touching += (place_[m] - there).squaredNorm() < sight * sight ? 1 : 0;
+        }
+        for (std::uint32_t n = m == 0 ? 0 : wallEnd_[m - 1]; n < wallEnd_[m]; ++n) {
+            touching += wall_[n].overlapAt(place_[m], -kTouching) > 0.0 ? 1 : 0;
         }
         nextPlace_[m] = place_[m];
         if (touching < kHolding) {
@@ -185,9 +214,23 @@ void OverlapParter<Real>::part()
                     ++pairs;
                 }
             }
+            for (std::uint32_t n = m == 0 ? 0 : wallEnd_[m - 1]; n < wallEnd_[m]; ++n) {
+                const double overlap = wall_[n].overlapAt(place_[m], kAllowed);
+                if (overlap > 0.0) {
+                    push += overlap * wall_[n].normal;
+                    ++pairs;
+                }
+            }
             nextPlace_[m] = pairs == 0 ? place_[m] : place_[m] + kRelaxation / pairs * push;
         }
         place_.swap(nextPlace_);
+    }
+    // Walls do not give way, however many grains press.
+#pragma omp parallel for schedule(static)
+    for (std::int64_t m = 0; m < count; ++m) {
+        for (std::uint32_t n = m == 0 ? 0 : wallEnd_[m - 1]; n < wallEnd_[m]; ++n) {
+            place_[m] += std::max(wall_[n].overlapAt(place_[m], kAllowed), 0.0) * wall_[n].normal;
+        }
     }
 }
 

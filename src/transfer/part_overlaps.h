@@ -28,7 +28,20 @@ private:
         std::uint32_t grain;  ///< index of a moved grain, or kObstacle + index into obstacles_
         double reach;         ///< m, distance at which they just touch
     };
+    /// A smooth solid's surface beside a grain: flat, as far as the grain goes in these rounds.
+    struct Wall {
+        Vec3 normal;     ///< unit, towards the grain
+        double surface;  ///< m, along the normal
+        double reach;    ///< m above the surface: where the grain's centre is when they just touch
+
+        /// m, beyond a share of the reach that may be.
+        double overlapAt(const Vec3& centre, double allowed) const
+        {
+            return reach * (1.0 - allowed) - (normal.dot(centre) - surface);
+        }
+    };
     void listNeighbours(const Dem<Real>& dem, const BuriedGrains* buried);
+    void listWalls(const Dem<Real>& dem);
     void settle(const Vec3& down);
     void part();
     double deepestOverlap() const;
@@ -40,6 +53,8 @@ private:
     std::vector<Vec3> obstacles_;
     std::vector<Neighbour> neighbour_;
     std::vector<std::uint32_t> end_;       ///< of each moved grain's neighbours
+    std::vector<Wall> wall_;
+    std::vector<std::uint32_t> wallEnd_;   ///< of each moved grain's walls
 };
 
 }  // namespace sandflow

@@ -116,6 +116,7 @@ private:
         flow.creepDecay = number(0, 9);
         flow.creepDepth = number(0, 9);
         flow.settleDepth = number(0, 20);
+        flow.freezeOnSmooth = chance();
     }
 
     SolidSpec makeSolid(SolidShape shape)

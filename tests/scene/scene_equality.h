@@ -63,6 +63,7 @@ inline void expectSame(const SurfaceFlowSpec& a, const SurfaceFlowSpec& b)
     expectSameBits(a.creepDecay, b.creepDecay);
     expectSameBits(a.creepDepth, b.creepDepth);
     expectSameBits(a.settleDepth, b.settleDepth);
+    EXPECT_EQ(a.freezeOnSmooth, b.freezeOnSmooth);
 }
 
 inline void expectSame(const SolidSpec& a, const SolidSpec& b)

@@ -87,6 +87,7 @@ bury_clearance = 1.7
 creep_decay = 1.5
 creep_depth = 2.5
 settle_depth = 7
+freeze_on_smooth = true
 [skip]
 sleep = false
 [camera]
@@ -141,6 +142,7 @@ angle = 40
     EXPECT_EQ(scene.surfaceFlow.creepDecay, 1.5);
     EXPECT_EQ(scene.surfaceFlow.creepDepth, 2.5);
     EXPECT_EQ(scene.surfaceFlow.settleDepth, 7.0);
+    EXPECT_TRUE(scene.surfaceFlow.freezeOnSmooth);
     EXPECT_FALSE(scene.skip.sleep);
     EXPECT_EQ(scene.camera.position, Vec3(1, 1, 1));
     EXPECT_EQ(scene.camera.lookAt, Vec3(0, 0, 0.1));

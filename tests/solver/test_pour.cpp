@@ -141,6 +141,27 @@ TEST(SurfaceFlow, NoFixedGrainHangsInTheAir)
     EXPECT_GT(seen, 1000u);
 }
 
+TEST(SurfaceFlow, OnASmoothFloorASlopeIsComputedUntilItRests)
+{
+    Scene scene = makePour(1200, Mode::surfaceFlow);
+    scene.solids[0].rough = false;
+    scene.time.settle = 2.5;
+    std::uint64_t fixed = 0;
+    FrameReport last;
+    const auto watch = [&](const Simulation& sim, const FrameReport& report) {
+        EXPECT_EQ(sim.countLeaks(), 0u);
+        fixed = std::max(fixed, report.ledger.interface + report.ledger.buried);
+        last = report;
+    };
+    run(scene, watch);
+    EXPECT_LT(fixed, 200u) << "below the apex the surface is level";
+    EXPECT_GT(last.ledger.asleep, 900u);
+    fixed = 0;
+    scene.surfaceFlow.freezeOnSmooth = true;
+    run(scene, watch);
+    EXPECT_GT(fixed, 300u);
+}
+
 TEST(SurfaceFlow, NobodySleepsWhenSleepIsNotSkipped)
 {
     Scene scene = makePour(800, Mode::surfaceFlow);

@@ -182,6 +182,31 @@ TEST(OverlapParter, ShearedSandMakesWayForItself)
     EXPECT_LT(overlapsOf(dem).largest, 0.3);
 }
 
+TEST(OverlapParter, NobodyIsPressedThroughASmoothWall)
+{
+    DemSetup setup = makeSetup();
+    Primitive wall;  // z = 0
+    setup.primitives.push_back(wall);
+    wall.axis = -Vec3::UnitX();
+    wall.point = Vec3(8.0 * kDiameter, 0.0, 0.0);
+    wall.until = 0.0;  // gone: it holds nobody
+    setup.primitives.push_back(wall);
+    Dem<float> dem(setup);
+    dem.recordContacts();
+    addLooseBed(dem);
+    OverlapParter<float> parter;
+    const auto shear = [](const GrainRecord<float>& g) -> Vec3 { return {0.04 * g.z, 0.0, -1e-4}; };
+    for (int step = 0; step < 30; ++step) {
+        parter.shiftAndPart(shear, 1e-7, BuriedGrains(0.03), dem);
+    }
+    double farthest = 0.0;
+    for (const GrainRecord<float>& g : dem.frozen().records()) {
+        EXPECT_GT(g.z, 0.99 * static_cast<double>(g.radius)) << g.id;
+        farthest = std::max(farthest, static_cast<double>(g.x));
+    }
+    EXPECT_GT(farthest, 8.0 * kDiameter);
+}
+
 TEST(OverlapParter, WhatDoesNotMoveIsAnObstacle)
 {
     Dem<float> dem(makeSetup());

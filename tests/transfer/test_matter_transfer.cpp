@@ -47,6 +47,32 @@ TEST(MatterTransfer, DepositionTrapsGrainsAtRestBelowTheBed)
     EXPECT_NEAR(report.trappedMomentum, 0.001 * s.dem.massOf(kRadius), 1e-9);
 }
 
+TEST(MatterTransfer, OverASlippingBaseNobodyIsFixedAndOnlyLongRestIsSleep)
+{
+    State s;
+    s.setBed(0.1);
+    addMobile(s.dem, overColumn(2, 2, 0.095), 2);  // at rest for a second
+    addMobile(s.dem, overColumn(3, 2, 0.095), 4);  // at rest for half a second
+    addMobile(s.dem, overColumn(4, 2, 0.095), 6);  // likewise, over a base that holds
+    addFrozen(s.dem, overColumn(5, 2, 0.095), 8, GrainState::asleep);
+    addFrozen(s.dem, overColumn(6, 2, 0.095), 10);
+    std::vector<std::uint8_t> slips(s.columns.spanCount(), 1);
+    const Vec3 held = overColumn(4, 2, 0.095);
+    slips[s.columns.spanAt(held.x(), held.y(), held.z())] = 0;
+    s.dem.rebuild(0.0, kStep);
+    for (std::size_t k = 0; k < s.dem.mobile().size(); ++k) {
+        s.dem.mobile().memory[k].stillTime = s.dem.mobile().record[k].id == 2 ? 1.01f : 0.5f;
+    }
+    s.transfer.plan(s.columns, s.dem, slips);
+    s.dem.recordContacts();
+    s.transfer.apply(s.columns, s.dem, s.buried);
+    EXPECT_EQ(s.stateOf(2), GrainState::asleep);
+    EXPECT_EQ(s.stateOf(4), GrainState::mobile);
+    EXPECT_EQ(s.stateOf(6), GrainState::interface);
+    EXPECT_EQ(s.stateOf(8), GrainState::asleep) << "a sleeper does not become part of the bed";
+    EXPECT_EQ(s.stateOf(10), GrainState::interface) << "what is fixed stays fixed";
+}
+
 TEST(MatterTransfer, NobodySleepsWhenSleepIsOff)
 {
     TransferParams params;
