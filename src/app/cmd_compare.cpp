@@ -67,16 +67,6 @@ void writeShares(JsonWriter& json, std::string_view name, const GrainShares& sha
     json.member("interface", shares.interface).member("buried", shares.buried).endObject();
 }
 
-void writeOptional(JsonWriter& json, std::string_view key, const std::optional<double>& value)
-{
-    json.key(key);
-    if (value) {
-        json.value(*value);
-    } else {
-        json.null();
-    }
-}
-
 void writeCrater(JsonWriter& json, std::string_view name, const CraterFigures& crater)
 {
     json.key(name).beginObject();
@@ -91,7 +81,7 @@ void writeCraters(JsonWriter& json, const Craters& craters, double diameter)
     writeCrater(json, "a", craters.a);
     writeCrater(json, "b", craters.b);
     json.member("depth_d", craters.depthDifference(diameter));
-    writeOptional(json, "volume_percent", craters.volumeDifference());
+    json.member("volume_percent", craters.volumeDifference());
     json.endObject();
 }
 
@@ -106,7 +96,7 @@ void writeRun(JsonWriter& json, std::string_view name, const Run& run, const Hea
     writeShares(json, "share_pouring", f.pouring);
     json.member("wall_s_per_frame", f.wallPerFrame).member("steps_per_frame", f.stepsPerFrame);
     json.member("dt_mean_s", f.step).member("ledger_ok", f.ledgerOk);
-    writeOptional(json, "repose_deg", heap.reposeDeg);
+    json.member("repose_deg", heap.reposeDeg);
     json.member("apex_m", heap.apex).member("r90_m", heap.r90).member("foot_m", heap.foot);
     json.member("volume_m3", heap.volume).member("solid_fraction", heap.solidFraction);
     json.endObject();
@@ -132,14 +122,14 @@ std::string formatJson(const Run& a, const Run& b, const HeapComparison& heaps,
     writeDifference(json, "height_radial", heaps.radial);
     writeDifference(json, "height_cells", heaps.cells);
     json.member("centroid_d", heaps.centroidShift).member("apex_d", heaps.apexDifference);
-    writeOptional(json, "repose_deg", heaps.reposeDifference);
+    json.member("repose_deg", heaps.reposeDifference);
     json.member("r90_percent", heaps.r90Difference).member("foot_d", heaps.footDifference);
     json.member("volume_percent", heaps.volumeDifference);
     json.member("grains", heaps.countDifference);
-    writeOptional(json, "wall_ratio",  // b over a
-                  a.figures.wallPerFrame > 0.0
-                      ? std::optional(b.figures.wallPerFrame / a.figures.wallPerFrame)
-                      : std::nullopt);
+    json.member("wall_ratio",  // b over a
+                a.figures.wallPerFrame > 0.0
+                    ? std::optional(b.figures.wallPerFrame / a.figures.wallPerFrame)
+                    : std::nullopt);
     json.endObject();
     if (craters) {
         writeCraters(json, *craters, heaps.diameter);

@@ -28,22 +28,12 @@ std::string modeName(const Scene& scene)
     return scene.mode == Mode::dem ? "dem" : "surface-flow";
 }
 
-void writeOptional(JsonWriter& json, std::string_view key, const std::optional<double>& value)
-{
-    json.key(key);
-    if (value) {
-        json.value(*value);
-    } else {
-        json.null();
-    }
-}
-
 void writeRelease(JsonWriter& json, const ReleaseFigures& release)
 {
     json.key("release").beginObject();
     json.member("seconds", release.seconds).member("apex_moved_d", release.apexMoved);
     json.member("mean_dh_d", release.meanHeightChange);
-    writeOptional(json, "repose_moved_deg", release.reposeMoved);
+    json.member("repose_moved_deg", release.reposeMoved);
     json.member("fastest_m_s", release.fastest).member("could_fall_m_s", release.couldFall);
     json.endObject();
 }
@@ -151,7 +141,7 @@ JsonWriter RunSummary::json() const
     json.member("buried_bytes", bytesBuried_);
     json.member("state_hash", fmt::format("{:016x}", hash_));
     json.key("heap").beginObject();
-    writeOptional(json, "repose_deg", repose_);
+    json.member("repose_deg", repose_);
     json.member("apex_m", apex_).member("r90_m", r90_).endObject();
     json.key("meshes").beginArray();
     for (const MeshFigures& mesh : meshes_) {
@@ -164,7 +154,7 @@ JsonWriter RunSummary::json() const
     json.member("fell_asleep", transfer_.fellAsleep).member("woken", transfer_.woken);
     json.member("trapped_momentum_kg_m_s", transfer_.trappedMomentum);
     json.member("landed_momentum_kg_m_s", transfer_.landedMomentum).endObject();
-    writeOptional(json, "trapped_momentum_share", trappedShare());
+    json.member("trapped_momentum_share", trappedShare());
     if (release_) {
         writeRelease(json, *release_);
     }

@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,6 +41,11 @@ public:
         }
     }
     JsonWriter& null();
+    /// null where there is none.
+    JsonWriter& value(const std::optional<double>& number)
+    {
+        return number ? value(*number) : null();
+    }
 
     template <typename T>
     JsonWriter& member(std::string_view name, const T& content)

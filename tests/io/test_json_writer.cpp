@@ -29,6 +29,14 @@ TEST(JsonWriter, nestsObjectsAndArrays)
               "  \"rows\": [\n    1,\n    -2,\n    null,\n    {}\n  ],\n  \"empty\": []\n}\n");
 }
 
+TEST(JsonWriter, whatIsMissingIsNull)
+{
+    JsonWriter json;
+    json.beginObject().member("repose_deg", std::optional<double>());
+    json.member("ratio", std::optional(0.5)).endObject();
+    EXPECT_EQ(json.text(), "{\n  \"repose_deg\": null,\n  \"ratio\": 0.5\n}\n");
+}
+
 TEST(JsonWriter, escapesWhatJsonForbidsInText)
 {
     EXPECT_EQ(quote("a\"b\\c\nd\re\tf"), "\"a\\\"b\\\\c\\nd\\re\\tf\"\n");
