@@ -73,7 +73,7 @@ struct SurfaceFlowSpec {
     double buryClearance = 1.3;          ///< d kept between mobile and buried grains
     double creepDecay = 0.6;             ///< d, over which the bed's creep falls by e; 0: rigid bed
     double creepDepth = 2.0;             ///< d below the top of the bed where its creep ends
-    double settleDepth = 15.0;           ///< d, of the sand set free when the flow has ended; 0: none
+    double settleDepth = 40.0;           ///< d, of the sand set free when the flow has ended; 0: none
 };
 
 /// [skip] Work left out; every switch can be turned off (--no-skip turns all off).

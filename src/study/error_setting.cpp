@@ -42,7 +42,7 @@ std::vector<Sweep> listSweeps(const Scene& scene)
         {"bury clearance", "surface_flow.bury_clearance", " d", 1.0, s.buryClearance,
          {1.0, 1.3, 2.5}},
         {"bed creep", "surface_flow.creep_decay", " d", 1.0, s.creepDecay, {0.0, 0.4, 0.6, 0.8}},
-        {"settling", "surface_flow.settle_depth", " d", 1.0, s.settleDepth, {0.0, 15.0, 30.0}},
+        {"settling", "surface_flow.settle_depth", " d", 1.0, s.settleDepth, {0.0, 15.0, 40.0}},
         {"smoothing", "surface_flow.smoothing", "", 1.0, s.smoothing, {0.0, 0.3, 0.6}},
     };
 }
