@@ -38,6 +38,8 @@ struct Primitive {
     double height = 0.0;
 
     bool existsAt(double time) const { return time >= from && time < until; }
+    /// No particles cover it: only contacts with the surface itself hold grains.
+    bool isSmoothAt(double time) const { return !rough && existsAt(time); }
 };
 
 /// How messages call a solid: solids[2] ("table").

@@ -1,5 +1,7 @@
 #include "transfer/base_slip.h"
 
+#include "bcre/smooth_spans.h"
+
 #include <algorithm>
 
 namespace sandflow {
@@ -14,11 +16,9 @@ constexpr double kAtFloor = 1e-6;   // m: a span begins at that solid
 const std::vector<std::uint8_t>& BaseSlip::find(const ColumnGrid& columns,
                                                 std::span<const Primitive> solids, double time)
 {
-    const auto isSmooth = [&](const Primitive& solid) {
-        return !solid.rough && solid.existsAt(time);
-    };
     slips_.clear();
-    if (std::none_of(solids.begin(), solids.end(), isSmooth)) {
+    if (std::none_of(solids.begin(), solids.end(),
+                     [&](const Primitive& solid) { return solid.isSmoothAt(time); })) {
         return slips_;
     }
     findSmoothFloors(columns, solids, time);
@@ -39,8 +39,7 @@ void BaseSlip::findSmoothFloors(const ColumnGrid& columns, std::span<const Primi
         const Vec3 base((columns.columnI[s] + 0.5) * edge, (columns.columnJ[s] + 0.5) * edge,
                         columns.floor[s]);
         smooth_.push_back(std::any_of(solids.begin(), solids.end(), [&](const Primitive& solid) {
-            return !solid.rough && solid.existsAt(time) &&
-                   nearestSurface(solid, base).distance < kAtFloor;
+            return solid.isSmoothAt(time) && nearestSurface(solid, base).distance < kAtFloor;
         }));
     }
 }
@@ -49,7 +48,6 @@ void BaseSlip::findSlopes(const ColumnGrid& columns)
 {
     const auto count = static_cast<std::int64_t>(columns.spanCount());
     slope_.resize(columns.spanCount());
-    smoothed_.resize(columns.spanCount());
 #pragma omp parallel for schedule(static)
     for (std::int64_t s = 0; s < count; ++s) {
         for (int axis = 0; axis < 2; ++axis) {
@@ -61,21 +59,7 @@ void BaseSlip::findSlopes(const ColumnGrid& columns)
             slope_[s][axis] = run > 0.0 ? rise / (run * columns.cellSize()) : 0.0;
         }
     }
-    for (int pass = 0; pass < kSmoothings; ++pass) {
-#pragma omp parallel for schedule(static)
-        for (std::int64_t s = 0; s < count; ++s) {
-            Vec2 sum = slope_[s];
-            double parts = 1.0;
-            for (const std::int32_t other : columns.link[s]) {
-                if (other != ColumnGrid::kNone) {
-                    sum += slope_[other];
-                    parts += 1.0;
-                }
-            }
-            smoothed_[s] = sum / parts;
-        }
-        slope_.swap(smoothed_);
-    }
+    smoothOverNeighbours(columns, kSmoothings, slope_, smoothed_);
 }
 
 }  // namespace sandflow

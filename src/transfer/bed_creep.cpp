@@ -1,5 +1,7 @@
 #include "transfer/bed_creep.h"
 
+#include "bcre/smooth_spans.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -145,24 +147,8 @@ void BedCreep<Real>::findBedVelocity(const ColumnGrid& columns, double interval)
 template <class Real>
 void BedCreep<Real>::smooth(const ColumnGrid& columns)
 {
-    const auto count = static_cast<std::int64_t>(averaged_.size());
     velocity_ = averaged_;
-    smoothed_.resize(averaged_.size());
-    for (int pass = 0; pass < kSmoothings; ++pass) {
-#pragma omp parallel for schedule(static)
-        for (std::int64_t s = 0; s < count; ++s) {
-            Vec3 sum = velocity_[s];
-            double parts = 1.0;
-            for (const std::int32_t other : columns.link[s]) {
-                if (other != ColumnGrid::kNone) {
-                    sum += velocity_[other];
-                    parts += 1.0;
-                }
-            }
-            smoothed_[s] = sum / parts;
-        }
-        velocity_.swap(smoothed_);
-    }
+    smoothOverNeighbours(columns, kSmoothings, velocity_, smoothed_);
     fastest_ = 0.0;
     for (const Vec3& u : velocity_) {
         fastest_ = std::max(fastest_, u.norm());

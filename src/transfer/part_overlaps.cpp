@@ -150,7 +150,7 @@ void OverlapParter<Real>::listWalls(const Dem<Real>& dem)
         const Vec3 before(g.x, g.y, g.z);
         const auto radius = static_cast<double>(g.radius);
         for (const Primitive& solid : dem.setup().primitives) {
-            if (solid.rough || !solid.existsAt(dem.listTime())) {
+            if (!solid.isSmoothAt(dem.listTime())) {
                 continue;
             }
             const SurfacePoint surface = nearestSurface(solid, before);
